@@ -1,0 +1,143 @@
+//! What may be typed.
+
+use std::path::PathBuf;
+
+use clap::{Parser, Subcommand};
+
+/// Makes humanoid robots crawl where they cannot walk.
+#[derive(Debug, Parser)]
+#[command(
+    name = "prone",
+    version,
+    propagate_version = true,
+    arg_required_else_help = true
+)]
+#[command(after_help = "\
+Examples:
+  prone reproduce                         redo the published study, report in out/reproduce
+  prone gait show nominal                 a gait's joints, limits and heights
+  prone robot check robots/nao            validate a robot and print its chain")]
+pub(crate) struct Args {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Redo the published torque study: simulate, price, compare, draw, report
+    Reproduce(ReproduceArgs),
+    /// Look at gaits
+    #[command(subcommand)]
+    Gait(GaitCommand),
+    /// Look at robots
+    #[command(subcommand)]
+    Robot(RobotCommand),
+    /// Print a completion script for a shell
+    #[command(
+        after_help = "Example:\n  prone completions bash > ~/.local/share/bash-completion/completions/prone"
+    )]
+    Completions {
+        /// For which shell
+        shell: clap_complete::Shell,
+    },
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum GaitCommand {
+    /// Plan a gait on a robot: joint trajectory, limits, heights
+    Show(GaitShowArgs),
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum RobotCommand {
+    /// Validate a robot's files and print its crawling chain
+    Check(RobotCheckArgs),
+}
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  prone reproduce
+  prone reproduce --durations 1,5,10 --out /tmp/short
+  prone reproduce --json | jq .ratios
+
+The folder appears when all is done, and replaces an earlier result in one step. All its files but
+timing.json are the same, byte for byte, for the same input, on any number of threads.")]
+pub(crate) struct ReproduceArgs {
+    /// Result folder; made, or replaced if it holds an earlier result
+    #[arg(long, value_name = "DIR", default_value = "out/reproduce")]
+    pub(crate) out: PathBuf,
+    /// Durations of the phase, s, multiples of 0.1
+    #[arg(
+        long,
+        value_name = "LIST",
+        value_delimiter = ',',
+        allow_negative_numbers = true,
+        default_value = "1,2,3,4,5,6,7,8,9,10"
+    )]
+    pub(crate) durations: Vec<f64>,
+    /// Worker threads [default: all cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
+    /// Robot folder with robot.toml and its model [default: the NAO that ships with prone]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) robot: Option<PathBuf>,
+    /// Print the figures of summary.json instead of a table
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  prone gait show nominal
+  prone gait show my-gait.toml --duration 3 --csv my-gait.csv
+  prone gait show optimal --json | jq .clamps")]
+pub(crate) struct GaitShowArgs {
+    /// A gait that ships with prone (nominal, optimal) or a gait file
+    #[arg(value_name = "GAIT")]
+    pub(crate) gait: String,
+    /// Duration of the phase, s
+    #[arg(
+        long,
+        value_name = "S",
+        default_value_t = 5.0,
+        allow_negative_numbers = true
+    )]
+    pub(crate) duration: f64,
+    /// Write all 101 instants to a CSV file
+    #[arg(long, value_name = "FILE")]
+    pub(crate) csv: Option<PathBuf>,
+    /// Robot folder with robot.toml and its model [default: the NAO that ships with prone]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) robot: Option<PathBuf>,
+    /// Print everything as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  prone robot check
+  prone robot check robots/nao --json")]
+pub(crate) struct RobotCheckArgs {
+    /// Robot folder with robot.toml and its model [default: the NAO that ships with prone]
+    #[arg(value_name = "DIR")]
+    pub(crate) robot: Option<PathBuf>,
+    /// Print everything as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn arguments_are_consistent() {
+        Args::command().debug_assert();
+    }
+}

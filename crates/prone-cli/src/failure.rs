@@ -1,0 +1,58 @@
+//! How a command ends badly.
+
+use std::process::ExitCode;
+
+/// Why a command did not do what was asked.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// What was typed or read is wrong: exit code 2, nothing was written.
+    Input(anyhow::Error),
+    /// The work itself failed: exit code 1.
+    Work(anyhow::Error),
+    /// The user stopped it: exit code 130.
+    Stopped,
+    /// Whoever reads our output has gone, as `head` does: no reason to complain.
+    OutputClosed,
+}
+
+impl Failure {
+    /// Wrong input.
+    pub(crate) fn input(error: impl Into<anyhow::Error>) -> Self {
+        Self::Input(error.into())
+    }
+
+    /// Failed work.
+    pub(crate) fn work(error: impl Into<anyhow::Error>) -> Self {
+        Self::Work(error.into())
+    }
+
+    /// Prints one message and gives the exit code.
+    pub(crate) fn report(self) -> ExitCode {
+        match self {
+            Self::Input(error) => {
+                eprintln!("error: {error:#}");
+                ExitCode::from(2)
+            }
+            Self::Work(error) => {
+                eprintln!("error: {error:#}");
+                ExitCode::from(1)
+            }
+            Self::Stopped => {
+                eprintln!("stopped; nothing was written");
+                ExitCode::from(130)
+            }
+            Self::OutputClosed => ExitCode::SUCCESS,
+        }
+    }
+}
+
+/// Errors of writing a command's result to standard output.
+impl From<std::io::Error> for Failure {
+    fn from(error: std::io::Error) -> Self {
+        if error.kind() == std::io::ErrorKind::BrokenPipe {
+            Self::OutputClosed
+        } else {
+            Self::work(anyhow::Error::new(error).context("cannot write to standard output"))
+        }
+    }
+}

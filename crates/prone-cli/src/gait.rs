@@ -1,0 +1,132 @@
+//! `prone gait show`, and finding a gait by name or file.
+
+use std::fs;
+use std::io::Write as _;
+use std::path::Path;
+
+use anyhow::Context as _;
+
+use prone::gait::{Gait, PhaseDuration};
+use prone_files::{gait_file, shipped};
+use prone_study::gait_sheet::{self, GaitSheet};
+
+use crate::Failure;
+use crate::args::GaitShowArgs;
+
+/// Every how many of the 101 instants one is printed.
+const PRINTED_EVERY: usize = 10;
+
+/// A shipped gait by name, or the gait of a file.
+pub(crate) fn find(name: &str) -> Result<Gait, Failure> {
+    if let Some(gait) = shipped::gait(name) {
+        return gait.map_err(Failure::input);
+    }
+    let path = Path::new(name);
+    if !path.exists() {
+        let known: Vec<_> = shipped::gait_names().collect();
+        return Err(Failure::Input(anyhow::anyhow!(
+            "there is no gait {name:?}: it is neither one that ships with prone ({}) nor a file",
+            known.join(", ")
+        )));
+    }
+    let text = fs::read_to_string(path)
+        .with_context(|| format!("cannot read {name}"))
+        .map_err(Failure::Input)?;
+    gait_file::parse(name, &text).map_err(Failure::input)
+}
+
+pub(crate) fn show(args: &GaitShowArgs) -> Result<(), Failure> {
+    let duration = PhaseDuration::new(args.duration).map_err(Failure::input)?;
+    let gait = find(&args.gait)?;
+    let loaded = crate::robot::load(args.robot.as_deref())?;
+    let sheet = gait_sheet::of(loaded.robot(), &gait, duration).map_err(Failure::input)?;
+    if let Some(path) = &args.csv {
+        let table = sheet.csv().map_err(Failure::work)?;
+        fs::write(path, table)
+            .with_context(|| format!("cannot write {}", path.display()))
+            .map_err(Failure::Input)?;
+    }
+    let mut out = std::io::stdout().lock();
+    if args.json {
+        let text = serde_json::to_string_pretty(&sheet).map_err(Failure::work)?;
+        writeln!(out, "{text}")?;
+        return Ok(());
+    }
+    print(&sheet, &mut out)?;
+    Ok(())
+}
+
+fn print(sheet: &GaitSheet, out: &mut impl std::io::Write) -> std::io::Result<()> {
+    writeln!(out, "{}: {}", sheet.gait, sheet.description)?;
+    writeln!(
+        out,
+        "on {}, {} s, mapping {}, arms {}\n",
+        sheet.robot, sheet.duration_s, sheet.mapping, sheet.arm
+    )?;
+    let left = &sheet.joints[..sheet.joints.len() / 2];
+    writeln!(out, "chain and left joints, degrees; heights, mm")?;
+    write!(out, "{:>6}", "phase")?;
+    for name in ["θ1", "θ2", "θ3", "θ4", "θ5", "α"] {
+        write!(out, "{name:>8}")?;
+    }
+    for name in left {
+        write!(out, "{name:>16}")?;
+    }
+    writeln!(out, "{:>9}{:>7}{:>7}", "ankle z", "hip z", "top")?;
+    for row in sheet.rows.iter().step_by(PRINTED_EVERY) {
+        write!(out, "{:>4.0} %", row.cycle_percent)?;
+        for angle in row.chain_rad {
+            write!(out, "{:>8.1}", angle.to_degrees())?;
+        }
+        for angle in &row.joints_rad[..left.len()] {
+            write!(out, "{:>16.1}", angle.to_degrees())?;
+        }
+        let [ankle, _, hip, _] = row.centres_mm;
+        writeln!(out, "{ankle:>9.1}{hip:>7.1}{:>7.1}", row.top_mm)?;
+    }
+    writeln!(out, "\nlimits")?;
+    if sheet.clamps.is_empty() {
+        writeln!(out, "  all joints stay inside theirs")?;
+    }
+    for clamp in &sheet.clamps {
+        writeln!(
+            out,
+            "  {} is stopped at its limit in {} of {} samples, {:.0} to {:.0} % of the phase; {:+.2}° cut off at most",
+            clamp.joint,
+            clamp.samples,
+            sheet.rows.len(),
+            clamp.from_percent,
+            clamp.to_percent,
+            clamp.largest_deg
+        )?;
+    }
+    let (joint, speed) = &sheet.fastest;
+    writeln!(out, "  fastest: {joint}, {speed:.2} rad/s")?;
+    writeln!(out, "\nheights and stride of the planned chain")?;
+    writeln!(
+        out,
+        "  ankle's highest point (joint centre)  {:>7.1} mm",
+        sheet.ankle_peak_mm
+    )?;
+    writeln!(
+        out,
+        "  highest point of the body             {:>7.1} mm",
+        sheet.top_mm
+    )?;
+    writeln!(
+        out,
+        "  lowest point of the body              {:>7.1} mm",
+        sheet.bottom_mm
+    )?;
+    if sheet.bottom_mm < 0.0 {
+        writeln!(
+            out,
+            "    below the floor: there the real body rests on it and cannot follow the chain"
+        )?;
+    }
+    writeln!(
+        out,
+        "  advance of the shoulder               {:>7.1} mm",
+        sheet.stride_mm
+    )
+}

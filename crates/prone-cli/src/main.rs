@@ -1,0 +1,35 @@
+//! The command line of prone: arguments become a plan, a plan becomes calls.
+//!
+//! Results go to standard output, everything else to standard error. Exit codes: 0 done, 1 the
+//! work failed, 2 wrong input (nothing is written), 130 stopped by the user.
+
+mod args;
+mod failure;
+mod gait;
+mod progress;
+mod reproduce;
+mod robot;
+
+use std::process::ExitCode;
+
+use clap::{CommandFactory, Parser};
+
+use args::{Args, Command, GaitCommand, RobotCommand};
+use failure::Failure;
+
+fn main() -> ExitCode {
+    let args = Args::parse();
+    let done = match args.command {
+        Command::Reproduce(args) => reproduce::run(&args),
+        Command::Gait(GaitCommand::Show(args)) => gait::show(&args),
+        Command::Robot(RobotCommand::Check(args)) => robot::check(&args),
+        Command::Completions { shell } => {
+            clap_complete::generate(shell, &mut Args::command(), "prone", &mut std::io::stdout());
+            Ok(())
+        }
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(),
+    }
+}

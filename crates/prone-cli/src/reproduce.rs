@@ -1,0 +1,125 @@
+//! `prone reproduce`.
+
+use std::io::Write as _;
+use std::time::Instant;
+
+use anyhow::Context as _;
+use serde_json::json;
+
+use prone_study::output::{self, OutputError};
+use prone_study::reproduce::{self, Program, ReproduceError, Reproduction};
+use prone_study::summary::Summary;
+use prone_study::torque_study::{Observer as _, Plan, StudyError};
+
+use crate::Failure;
+use crate::args::ReproduceArgs;
+use crate::progress::Progress;
+
+/// The gaits of the published study.
+const GAITS: [&str; 2] = ["nominal", "optimal"];
+
+pub(crate) fn run(args: &ReproduceArgs) -> Result<(), Failure> {
+    let gaits = GAITS.into_iter().map(crate::gait::find);
+    let plan =
+        Plan::new(gaits.collect::<Result<_, _>>()?, &args.durations).map_err(Failure::input)?;
+    let robot = crate::robot::load(args.robot.as_deref())?;
+    output::check(&args.out).map_err(Failure::input)?;
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(args.threads.map_or(0, usize::from))
+        .build()
+        .context("cannot start worker threads")
+        .map_err(Failure::Work)?;
+    let program = Program {
+        version: env!("CARGO_PKG_VERSION"),
+        commit: env!("PRONE_COMMIT"),
+    };
+
+    let progress = Progress::new(plan.phases())?;
+    let started = Instant::now();
+    let reproduction = pool.install(|| reproduce::run(&robot, &plan, &program, &progress));
+    progress.finish();
+    let mut reproduction = reproduction.map_err(failure)?;
+    if progress.stop() {
+        return Err(Failure::Stopped);
+    }
+    let timing = timing(&reproduction, started, pool.current_num_threads())?;
+    reproduction.artefacts.insert("timing.json".into(), timing);
+    output::publish(&args.out, &reproduction.artefacts).map_err(written)?;
+
+    let mut out = std::io::stdout().lock();
+    if args.json {
+        let text = serde_json::to_string_pretty(&reproduction.summary).map_err(Failure::work)?;
+        writeln!(out, "{text}")?;
+    } else {
+        print(&reproduction.summary, &mut out)?;
+        writeln!(out, "\nreport: {}", args.out.join("report.html").display())?;
+    }
+    Ok(())
+}
+
+fn timing(
+    reproduction: &Reproduction,
+    started: Instant,
+    threads: usize,
+) -> Result<Vec<u8>, Failure> {
+    let wall_s = started.elapsed().as_secs_f64();
+    let timing = json!({
+        "wall_s": wall_s,
+        "threads": threads,
+        "engine_steps": reproduction.engine_steps,
+    });
+    serde_json::to_vec_pretty(&timing).map_err(Failure::work)
+}
+
+/// A gait that the robot cannot follow is wrong input, a diverging simulation is not.
+fn failure(error: ReproduceError) -> Failure {
+    use prone_sim::pull::PullError;
+    match error {
+        ReproduceError::Study(StudyError::Stopped) => Failure::Stopped,
+        ReproduceError::World(_)
+        | ReproduceError::Study(
+            StudyError::Trajectory(_)
+            | StudyError::Pull(PullError::Trajectory(_) | PullError::StartPosture { .. }),
+        ) => Failure::input(error),
+        _ => Failure::work(error),
+    }
+}
+
+fn written(error: OutputError) -> Failure {
+    Failure::work(error)
+}
+
+fn print(summary: &Summary, out: &mut impl std::io::Write) -> std::io::Result<()> {
+    writeln!(out, "cost of a pull, N²·m²·s: ours / published")?;
+    writeln!(
+        out,
+        "{:>8}{:>18}{:>18}{:>18}",
+        "duration", "nominal", "optimal", "ratio"
+    )?;
+    for row in &summary.ratios {
+        let cell = |gait: &str| {
+            let cost = summary
+                .costs
+                .iter()
+                .find(|cost| cost.gait == gait && (cost.duration_s - row.duration_s).abs() < 1e-9);
+            cost.map_or_else(String::new, |cost| {
+                beside(cost.cost_n2m2s, cost.published_n2m2s)
+            })
+        };
+        writeln!(
+            out,
+            "{:>6} s{:>18}{:>18}{:>18}",
+            row.duration_s,
+            cell("nominal"),
+            cell("optimal"),
+            beside(row.ours, row.published)
+        )?;
+    }
+    Ok(())
+}
+
+/// Ours, then theirs where there is one.
+fn beside(ours: f64, theirs: Option<f64>) -> String {
+    let theirs = theirs.map_or_else(|| "–".to_owned(), |theirs| format!("{theirs:.3}"));
+    format!("{ours:.3} / {theirs}")
+}

@@ -1,0 +1,118 @@
+//! `prone robot check`, and loading the robot for all commands.
+
+use std::io::Write as _;
+use std::path::Path;
+
+use prone_files::shipped;
+use prone_sim::{LoadedRobot, Regime, RobotFiles, World};
+use prone_study::robot_sheet::{self, ChainSheet, RobotSheet};
+
+use crate::Failure;
+use crate::args::RobotCheckArgs;
+
+/// The robot of a folder, or the one that ships.
+pub(crate) fn load(folder: Option<&Path>) -> Result<LoadedRobot, Failure> {
+    let files = match folder {
+        None => RobotFiles::shipped(&shipped::NAO),
+        Some(folder) => RobotFiles::read(folder).map_err(Failure::input)?,
+    };
+    LoadedRobot::load(files).map_err(Failure::input)
+}
+
+pub(crate) fn check(args: &RobotCheckArgs) -> Result<(), Failure> {
+    let loaded = load(args.robot.as_deref())?;
+    for regime in [Regime::TORQUE_STUDY, Regime::LOCOMOTION] {
+        World::new(&loaded, regime).map_err(Failure::input)?;
+    }
+    let sheet = robot_sheet::of(loaded.robot()).map_err(Failure::input)?;
+    let mut out = std::io::stdout().lock();
+    if args.json {
+        let text = serde_json::to_string_pretty(&sheet).map_err(Failure::work)?;
+        writeln!(out, "{text}")?;
+        return Ok(());
+    }
+    print(&sheet, &loaded.files().folder, &mut out)?;
+    Ok(())
+}
+
+fn print(sheet: &RobotSheet, folder: &str, out: &mut impl std::io::Write) -> std::io::Result<()> {
+    writeln!(
+        out,
+        "{} ({folder}): {:.3} kg, {} bodies, {} joints, {} colliding shapes",
+        sheet.robot, sheet.mass_kg, sheet.bodies, sheet.joints, sheet.shapes
+    )?;
+    writeln!(
+        out,
+        "\nclosed chain, toe to elbow{:>14}{:>12}",
+        "derived", "published"
+    )?;
+    let labels = [
+        "l1 toe-ankle, mm",
+        "l2 ankle-knee, mm",
+        "l3 knee-hip, mm",
+        "l4 hip-shoulder, mm",
+        "l5 shoulder-elbow (projected), mm",
+        "d_e toe to elbow, mm",
+        "ankle offset, °",
+        "shoulder roll, °",
+    ];
+    let derived = values(&sheet.derived);
+    let published = sheet.published.as_ref().map(values);
+    for (index, label) in labels.iter().enumerate() {
+        let theirs = published.map_or_else(|| "–".to_owned(), |p| format!("{:.2}", p[index]));
+        writeln!(out, "  {label:<34}{:>8.2}{theirs:>12}", derived[index])?;
+    }
+    writeln!(out, "\noutside the planar chain")?;
+    writeln!(
+        out,
+        "  toe edge ahead of the ankle       {:>8.2} mm",
+        sheet.toe_edge_mm
+    )?;
+    writeln!(
+        out,
+        "  elbow radius                      {:>8.2} mm",
+        sheet.elbow_radius_mm
+    )?;
+    writeln!(
+        out,
+        "\n{:<18}{:>20}{:>12}{:>13}{:>11}{:>11}",
+        "joint (left)", "range, °", "effort N·m", "nominal N·m", "stall N·m", "rad/s"
+    )?;
+    for drive in &sheet.drives {
+        let [lower, upper] = drive.range_deg;
+        let torque = |nm: Option<f64>| nm.map_or_else(|| "–".to_owned(), |nm| format!("{nm:.2}"));
+        writeln!(
+            out,
+            "{:<18}{:>20}{:>12.3}{:>13}{:>11}{:>11.2}",
+            drive.joint,
+            format!("{lower:.1} … {upper:.1}"),
+            drive.effort_nm,
+            torque(drive.nominal_nm),
+            torque(drive.stall_nm),
+            drive.speed_rad_s
+        )?;
+    }
+    writeln!(out, "\npostures: {}", sheet.postures.join(", "))?;
+    for outside in &sheet.postures_outside {
+        writeln!(
+            out,
+            "  {}: {} is {:+.3}° outside its range, and is held at its limit",
+            outside.posture, outside.joint, outside.excess_deg
+        )?;
+    }
+    writeln!(out, "\nvalid")
+}
+
+fn values(chain: &ChainSheet) -> [f64; 8] {
+    let [l1, l2, l3, l4, l5] = chain.links_mm;
+    [
+        l1,
+        l2,
+        l3,
+        l4,
+        l5,
+        chain.span_mm,
+        chain.ankle_offset_deg,
+        chain.shoulder_roll_deg,
+    ]
+}

@@ -1,0 +1,12 @@
+//! The text formats of prone: `robot.toml` and gait files.
+//!
+//! At this border names carry units (`span_mm`, `constant_deg`) and numbers are converted once;
+//! behind it everything is SI and radians. Every error names file, line and column. What ships
+//! with the program is embedded ([`shipped`]).
+
+mod error;
+pub mod gait_file;
+pub mod robot_file;
+pub mod shipped;
+
+pub use error::FileError;

@@ -1,0 +1,176 @@
+//! `robot.toml`: what a model file does not say about a robot.
+//!
+//! Which joints and sites make the crawling chain, which bodies count as toe, elbow, torso and
+//! leg, the drives and their motors, postures, and how the torque study treats the robot. Names
+//! refer to the MJCF file named in `model`; they keep their place in the text, so that a name
+//! that the model lacks can be pointed at ([`RobotFile::error_at`]).
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::error::{FileError, Source};
+
+/// A name with its place in the file.
+pub type Name = Spanned<String>;
+
+/// The contents of a `robot.toml`, in the units that its keys state.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RobotFile {
+    /// The maker's name of the model.
+    pub name: String,
+    /// The MJCF file beside this one.
+    pub model: Name,
+    /// The crawling chain.
+    pub chain: ChainTable,
+    /// Bodies whose contacts are recorded together; every body of the model once.
+    pub contacts: ContactTable,
+    /// Motor types by name.
+    #[serde(default)]
+    pub motors: BTreeMap<String, MotorTable>,
+    /// Joints with the same drive; every joint of the model once.
+    pub drives: Vec<DriveTable>,
+    /// Joint angles by posture and joint, rad; unlisted joints are at zero.
+    #[serde(default)]
+    pub postures: BTreeMap<String, BTreeMap<Name, f64>>,
+    /// The torque study.
+    pub study: StudyTable,
+}
+
+/// `[chain]`
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ChainTable {
+    /// Toe contact to elbow, mm.
+    pub span_mm: f64,
+    /// Shoulder to elbow in the sagittal plane, mm; the shoulder roll is solved for it.
+    pub projected_upper_arm_mm: f64,
+    /// Left limbs.
+    pub left: SideTable,
+    /// Right limbs.
+    pub right: SideTable,
+    /// A chain as printed in a publication.
+    pub published: Option<PublishedTable>,
+    /// The arm mode `fixed`, left side.
+    pub fixed_arm: Option<FixedArmTable>,
+}
+
+/// `[chain.left]`, `[chain.right]`
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SideTable {
+    /// Site of the toe contact.
+    pub toe: Name,
+    /// Ankle pitch joint.
+    pub ankle: Name,
+    /// Knee pitch joint.
+    pub knee: Name,
+    /// Hip pitch joint.
+    pub hip: Name,
+    /// Shoulder pitch joint.
+    pub shoulder: Name,
+    /// Joint that spreads the upper arm.
+    pub shoulder_roll: Name,
+    /// Site of the elbow's centre.
+    pub elbow: Name,
+    /// The two joints that point the forearm, upper one first.
+    pub forearm: [Name; 2],
+    /// Unit vector along the forearm in the frame of the body that the second one moves.
+    pub forearm_direction: [f64; 3],
+}
+
+/// `[chain.published]`
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PublishedTable {
+    /// l1 to l5, mm.
+    pub links_mm: [f64; 5],
+    /// Toe contact to elbow, mm.
+    pub span_mm: f64,
+    /// Ankle joint angle minus θ2, degrees.
+    pub ankle_offset_deg: f64,
+    /// Outward shoulder roll, degrees.
+    pub shoulder_roll_deg: f64,
+}
+
+/// `[chain.fixed_arm]`
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FixedArmTable {
+    /// Left shoulder roll, degrees.
+    pub shoulder_roll_deg: f64,
+    /// The left forearm's two joints, degrees.
+    pub forearm_deg: [f64; 2],
+}
+
+/// `[contacts]`
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ContactTable {
+    /// Bodies that count as toe.
+    pub toe: Vec<Name>,
+    /// Bodies that count as elbow.
+    pub elbow: Vec<Name>,
+    /// Bodies that count as torso.
+    pub torso: Vec<Name>,
+    /// Bodies that count as leg.
+    pub leg: Vec<Name>,
+    /// Bodies that are the head, whose height is recorded apart.
+    pub head: Vec<Name>,
+}
+
+/// `[motors.<type>]`
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MotorTable {
+    /// Continuous torque at the motor shaft, mN·m.
+    pub nominal_mnm: f64,
+    /// Stall torque at the motor shaft, mN·m.
+    pub stall_mnm: f64,
+}
+
+/// `[[drives]]`
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DriveTable {
+    /// The joints that have this drive.
+    pub joints: Vec<Name>,
+    /// Effort limit, N·m.
+    pub effort_nm: f64,
+    /// Speed limit, rad/s.
+    pub speed_rad_s: f64,
+    /// Velocity gain of the simulated servo, N·m·s/rad.
+    pub servo_gain_nms: f64,
+    /// Motor type, a key of `[motors]`.
+    pub motor: Option<Name>,
+    /// Gear ratio; needed where a motor is named.
+    pub ratio: Option<f64>,
+}
+
+/// `[study]`
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StudyTable {
+    /// The posture before the first command.
+    pub start_posture: Name,
+    /// Joint ranges that replace the maker's, rad.
+    #[serde(default)]
+    pub stops_rad: BTreeMap<Name, [f64; 2]>,
+}
+
+impl RobotFile {
+    /// Reads a `robot.toml`; `file` is the name that errors carry.
+    ///
+    /// # Errors
+    /// [`FileError`] with line and column.
+    pub fn parse(file: &str, text: &str) -> Result<Self, FileError> {
+        Source { file, text }.parse()
+    }
+
+    /// An error at a name of this file; `file` and `text` as given to [`RobotFile::parse`].
+    pub fn error_at<T>(file: &str, text: &str, place: &Spanned<T>, message: &str) -> FileError {
+        Source { file, text }.error(place.span(), message)
+    }
+}

@@ -1,0 +1,76 @@
+//! What ships inside the program: one robot and the published gaits.
+
+use prone::gait::Gait;
+
+use crate::{FileError, gait_file};
+
+/// A robot's two files, embedded.
+#[derive(Debug, Clone, Copy)]
+pub struct RobotSource {
+    /// Where they come from, as shown to a user.
+    pub folder: &'static str,
+    /// `robot.toml`.
+    pub toml: &'static str,
+    /// The MJCF model.
+    pub mjcf: &'static str,
+}
+
+/// The NAO H25 V4.
+pub const NAO: RobotSource = RobotSource {
+    folder: "robots/nao",
+    toml: include_str!("../../../robots/nao/robot.toml"),
+    mjcf: include_str!("../../../robots/nao/robot.xml"),
+};
+
+/// Names and texts of the gaits that ship with the program.
+const GAITS: [(&str, &str); 2] = [
+    ("nominal", include_str!("../../../gaits/nominal.toml")),
+    ("optimal", include_str!("../../../gaits/optimal.toml")),
+];
+
+/// The names that [`gait`] knows.
+pub fn gait_names() -> impl Iterator<Item = &'static str> {
+    GAITS.iter().map(|(name, _)| *name)
+}
+
+/// A shipped gait by name, `None` for any other name.
+///
+/// # Errors
+/// [`FileError`] if the embedded text does not parse, which a test excludes.
+pub fn gait(name: &str) -> Option<Result<Gait, FileError>> {
+    let (_, text) = GAITS.iter().find(|(known, _)| *known == name)?;
+    Some(gait_file::parse(&format!("gaits/{name}.toml"), text))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shipped_gaits_parse_under_their_own_names() {
+        for name in gait_names() {
+            assert_eq!(gait(name).unwrap().unwrap().name, name);
+        }
+        assert!(gait("gallop").is_none());
+    }
+
+    #[test]
+    fn reference_published_gaits_start_and_end_where_they_are_printed() {
+        for name in ["nominal", "optimal"] {
+            let gait = gait(name).unwrap().unwrap();
+            let start = gait.parameters(0.0);
+            // Table 3 prints five digits; Table 2 prints tenths of a degree of the same angles.
+            assert!((start.knee - 0.287_98).abs() < 1e-5, "{name}");
+            assert!((start.hip - 0.479_97).abs() < 1e-5, "{name}");
+            assert!((start.upper_arm + 0.523_60).abs() < 1e-5, "{name}");
+            // The optimiser's equality tolerance of 1e-3 was used up by the published optimum.
+            let end = gait.parameters(1.0);
+            assert!(
+                (end.upper_arm + std::f64::consts::FRAC_PI_2).abs() < 1.3e-3,
+                "{name}"
+            );
+            assert!((end.knee - 0.287_98).abs() < 1.3e-3, "{name}");
+            assert!((end.hip - 0.479_97).abs() < 1.3e-3, "{name}");
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! Rays through the engine's geoms.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use mujoco_rs::prelude::{MjData, MjModel};
+
+/// The visible geom groups, 0 to 2: those that the engine's viewer shows from the start.
+const VISIBLE_GROUPS: [u8; 6] = [1, 1, 1, 0, 0, 0];
+/// Farther than this nothing is seen, m.
+const HORIZON: f64 = 100.0;
+/// A surface this close to the end of a ray is the end of the ray, m.
+const CONTACT: f64 = 1e-4;
+
+/// Where a ray first meets a geom.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Hit {
+    /// The engine's number of the geom.
+    pub geom: usize,
+    /// In the ground frame, m.
+    pub point: DVec3,
+    /// Unit vector out of the surface.
+    pub normal: DVec3,
+    /// From the origin of the ray, m.
+    pub distance: f64,
+}
+
+/// The engine as a caster of rays; the state does not change.
+pub(super) struct Tracer<'a> {
+    data: &'a mut MjData<Arc<MjModel>>,
+}
+
+impl<'a> Tracer<'a> {
+    pub(super) fn new(data: &'a mut MjData<Arc<MjModel>>) -> Self {
+        Self { data }
+    }
+
+    /// Follows unit directions from one origin.
+    pub(super) fn hits(&mut self, origin: DVec3, directions: &[DVec3]) -> Vec<Option<Hit>> {
+        let arrays: Vec<[f64; 3]> = directions.iter().map(DVec3::to_array).collect();
+        let mut normals = vec![[0.0; 3]; arrays.len()];
+        let (geoms, distances) = self.data.multi_ray(
+            &origin.to_array(),
+            &arrays,
+            Some(&VISIBLE_GROUPS),
+            true,
+            None,
+            HORIZON,
+            Some(&mut normals),
+        );
+        geoms
+            .into_iter()
+            .zip(distances)
+            .zip(directions.iter().zip(normals))
+            .map(|((geom, distance), (&direction, normal))| {
+                Some(Hit {
+                    geom: geom?,
+                    point: origin + distance * direction,
+                    normal: DVec3::from_array(normal),
+                    distance,
+                })
+            })
+            .collect()
+    }
+
+    /// Whether each point is in sight of the origin.
+    pub(super) fn in_sight(&mut self, origin: DVec3, points: &[DVec3]) -> Vec<bool> {
+        let arrays: Vec<[f64; 3]> = points
+            .iter()
+            .map(|&point| (point - origin).normalize_or_zero().to_array())
+            .collect();
+        let (geoms, distances) = self.data.multi_ray(
+            &origin.to_array(),
+            &arrays,
+            Some(&VISIBLE_GROUPS),
+            true,
+            None,
+            HORIZON,
+            None,
+        );
+        geoms
+            .into_iter()
+            .zip(distances)
+            .zip(points)
+            .map(|((geom, distance), &point)| {
+                geom.is_none() || distance > origin.distance(point) - CONTACT
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,27 @@
+//! Crawling robots in the `MuJoCo` engine.
+//!
+//! [`load`] turns a robot's two files into [`prone::robot::Robot`]; a [`World`] puts it on a floor
+//! under a named contact [`regime`]; a [`Simulation`] steps it with the servo law of the published
+//! study; [`pull`] runs one closed-chain phase and records it; [`camera`] takes pictures on the
+//! CPU.
+//!
+//! The engine's model is shared, its data belongs to one run: runs on any number of threads give
+//! the same bits.
+
+pub mod camera;
+mod engine_log;
+mod load;
+pub mod pull;
+pub mod regime;
+mod simulation;
+mod world;
+
+pub use load::{LoadError, LoadedRobot, RobotFiles};
+pub use regime::Regime;
+pub use simulation::{Placement, Simulation, SimulationError, Snapshot, StepMeans};
+pub use world::{World, WorldError};
+
+/// The version of the engine that is linked, as it reports itself.
+pub fn engine_version() -> String {
+    format!("MuJoCo {}", mujoco_rs::mujoco_version())
+}

@@ -1,0 +1,322 @@
+//! Joins `robot.toml` with the parts of the model; every name is looked up.
+
+use std::collections::BTreeMap;
+use std::fmt::Display;
+
+use glam::DVec3;
+use strsim::levenshtein;
+
+use prone::chain::ClosedChain;
+use prone::frames::{Link, Point};
+use prone::mapping::{ArmMode, Mapping, MappingVariant};
+use prone::robot::{
+    BodyId, ChainLayout, ContactGroup, FixedArm, JointAngles, JointId, Motor, PublishedChain,
+    Range, Robot, SideLayout, StudySetup,
+};
+use prone_files::FileError;
+use prone_files::robot_file::{
+    ChainTable, ContactTable, DriveTable, MotorTable, Name, PublishedTable, RobotFile, SideTable,
+    StudyTable,
+};
+
+use super::model::Parts;
+
+/// The TOML file that errors point into, and the model's name for their text.
+pub(super) struct Tables<'a> {
+    pub(super) file: &'a str,
+    pub(super) text: &'a str,
+    pub(super) mjcf: &'a str,
+}
+
+impl Tables<'_> {
+    pub(super) fn assemble(&self, table: RobotFile, mut parts: Parts) -> Result<Robot, FileError> {
+        self.group_bodies(&table.contacts, &mut parts)?;
+        self.equip_joints(&table.drives, &table.motors, &mut parts)?;
+        let chain = self.chain(&table.chain, &parts)?;
+        let study = self.study(&table.study, &table.postures, &parts)?;
+        let mut robot = Robot {
+            name: table.name,
+            bodies: parts.bodies,
+            joints: parts.joints,
+            shapes: parts.shapes,
+            chain,
+            postures: BTreeMap::new(),
+            study,
+        };
+        robot.postures = self.postures(&table.postures, &robot)?;
+        // The chain must be a sagittal one and its arm projectable, or nothing else works.
+        Mapping::new(&robot, MappingVariant::Exact, ArmMode::FlatForearm)
+            .map_err(|error| self.error(&table.chain.left.toe, error))?;
+        Ok(robot)
+    }
+
+    fn error(&self, place: &Name, message: impl Display) -> FileError {
+        RobotFile::error_at(self.file, self.text, place, &message.to_string())
+    }
+
+    /// An error for a name that the model lacks, with the nearest one that it has.
+    fn unknown<'n>(
+        &self,
+        place: &Name,
+        kind: &str,
+        known: impl Iterator<Item = &'n str>,
+    ) -> FileError {
+        let name = place.get_ref();
+        let nearest = known.min_by_key(|candidate| levenshtein(candidate, name));
+        let hint = match nearest {
+            Some(nearest) if levenshtein(nearest, name) <= 3 => {
+                format!("; did you mean {nearest}?")
+            }
+            _ => String::new(),
+        };
+        self.error(
+            place,
+            format!("{kind} {name} is not in {}{hint}", self.mjcf),
+        )
+    }
+
+    fn joint(&self, name: &Name, parts: &Parts) -> Result<JointId, FileError> {
+        let mut joints = parts.joints.iter();
+        joints
+            .position(|joint| joint.name == *name.get_ref())
+            .map(JointId)
+            .ok_or_else(|| {
+                self.unknown(name, "joint", parts.joints.iter().map(|j| j.name.as_str()))
+            })
+    }
+
+    fn body(&self, name: &Name, parts: &Parts) -> Result<BodyId, FileError> {
+        let mut bodies = parts.bodies.iter();
+        bodies
+            .position(|body| body.name == *name.get_ref())
+            .map(BodyId)
+            .ok_or_else(|| self.unknown(name, "body", parts.bodies.iter().map(|b| b.name.as_str())))
+    }
+
+    fn site(&self, name: &Name, parts: &Parts) -> Result<(BodyId, Point<Link>), FileError> {
+        parts
+            .sites
+            .get(name.get_ref())
+            .copied()
+            .ok_or_else(|| self.unknown(name, "site", parts.sites.keys().map(String::as_str)))
+    }
+
+    /// A positive, finite number.
+    fn positive(&self, place: &Name, what: &str, value: f64) -> Result<f64, FileError> {
+        if value > 0.0 && value.is_finite() {
+            Ok(value)
+        } else {
+            Err(self.error(
+                place,
+                format!("{what} must be positive and finite, not {value}"),
+            ))
+        }
+    }
+
+    fn group_bodies(&self, contacts: &ContactTable, parts: &mut Parts) -> Result<(), FileError> {
+        let groups = [
+            (ContactGroup::Toe, &contacts.toe),
+            (ContactGroup::Elbow, &contacts.elbow),
+            (ContactGroup::Torso, &contacts.torso),
+            (ContactGroup::Leg, &contacts.leg),
+        ];
+        let mut seen = vec![false; parts.bodies.len()];
+        for (group, names) in groups {
+            for name in names {
+                let id = self.body(name, parts)?;
+                if std::mem::replace(&mut seen[id.0], true) {
+                    let again = format!("body {} is in [contacts] twice", name.get_ref());
+                    return Err(self.error(name, again));
+                }
+                parts.bodies[id.0].contact_group = group;
+            }
+        }
+        for name in &contacts.head {
+            let id = self.body(name, parts)?;
+            parts.bodies[id.0].is_head = true;
+        }
+        let missing = seen.iter().position(|seen| !seen);
+        match (missing, contacts.toe.first()) {
+            (None, Some(_)) => Ok(()),
+            (None, None) => Err(self.nowhere("[contacts] has no toe")),
+            (Some(index), _) => Err(self.nowhere(&format!(
+                "body {} of {} is in no group of [contacts]",
+                parts.bodies[index].name, self.mjcf
+            ))),
+        }
+    }
+
+    /// An error that belongs to the file as a whole.
+    fn nowhere(&self, message: &str) -> FileError {
+        FileError {
+            file: self.file.to_owned(),
+            line: 1,
+            column: 1,
+            message: message.to_owned(),
+        }
+    }
+
+    fn equip_joints(
+        &self,
+        drives: &[DriveTable],
+        motors: &BTreeMap<String, MotorTable>,
+        parts: &mut Parts,
+    ) -> Result<(), FileError> {
+        let mut seen = vec![false; parts.joints.len()];
+        for drive in drives {
+            for name in &drive.joints {
+                let id = self.joint(name, parts)?;
+                if std::mem::replace(&mut seen[id.0], true) {
+                    let again = format!("joint {} is in [[drives]] twice", name.get_ref());
+                    return Err(self.error(name, again));
+                }
+                let joint = &mut parts.joints[id.0];
+                joint.effort_limit = self.positive(name, "effort_nm", drive.effort_nm)?;
+                joint.speed_limit = self.positive(name, "speed_rad_s", drive.speed_rad_s)?;
+                joint.servo_gain = self.positive(name, "servo_gain_nms", drive.servo_gain_nms)?;
+                joint.motor = self.motor(drive, motors)?;
+            }
+        }
+        match seen.iter().position(|seen| !seen) {
+            None => Ok(()),
+            Some(index) => Err(self.nowhere(&format!(
+                "joint {} of {} is in no [[drives]]",
+                parts.joints[index].name, self.mjcf
+            ))),
+        }
+    }
+
+    fn motor(
+        &self,
+        drive: &DriveTable,
+        motors: &BTreeMap<String, MotorTable>,
+    ) -> Result<Option<Motor>, FileError> {
+        let Some(name) = &drive.motor else {
+            return Ok(None);
+        };
+        let Some(motor) = motors.get(name.get_ref()) else {
+            let message = format!("motor {} is not in [motors]", name.get_ref());
+            return Err(self.error(name, message));
+        };
+        let Some(ratio) = drive.ratio else {
+            return Err(self.error(name, "a drive with a motor needs its ratio"));
+        };
+        let ratio = self.positive(name, "ratio", ratio)?;
+        let at_joint = |millis: f64| millis * 1e-3 * ratio;
+        Ok(Some(Motor {
+            ratio,
+            nominal: at_joint(self.positive(name, "nominal_mnm", motor.nominal_mnm)?),
+            stall: at_joint(self.positive(name, "stall_mnm", motor.stall_mnm)?),
+        }))
+    }
+
+    fn chain(&self, table: &ChainTable, parts: &Parts) -> Result<ChainLayout, FileError> {
+        let place = &table.left.toe;
+        let fixed_arm = table.fixed_arm.as_ref().map(|fixed| FixedArm {
+            shoulder_roll: fixed.shoulder_roll_deg.to_radians(),
+            forearm: fixed.forearm_deg.map(f64::to_radians),
+        });
+        let arm = table.projected_upper_arm_mm;
+        Ok(ChainLayout {
+            left: self.side(&table.left, parts)?,
+            right: self.side(&table.right, parts)?,
+            span: self.positive(place, "span_mm", table.span_mm)? * 1e-3,
+            projected_upper_arm: self.positive(place, "projected_upper_arm_mm", arm)? * 1e-3,
+            published: match &table.published {
+                None => None,
+                Some(published) => Some(self.published(place, published)?),
+            },
+            fixed_arm,
+        })
+    }
+
+    fn published(&self, place: &Name, table: &PublishedTable) -> Result<PublishedChain, FileError> {
+        for length in table.links_mm {
+            self.positive(place, "every one of links_mm", length)?;
+        }
+        let span = self.positive(place, "span_mm", table.span_mm)? * 1e-3;
+        let [l1, l2, l3, l4, l5] = table.links_mm.map(|mm| mm * 1e-3);
+        Ok(PublishedChain {
+            chain: ClosedChain {
+                toe_to_ankle: l1,
+                ankle_to_knee: l2,
+                knee_to_hip: l3,
+                hip_to_shoulder: l4,
+                shoulder_to_elbow: l5,
+                span,
+            },
+            ankle_offset: table.ankle_offset_deg.to_radians(),
+            shoulder_roll: table.shoulder_roll_deg.to_radians(),
+        })
+    }
+
+    fn side(&self, table: &SideTable, parts: &Parts) -> Result<SideLayout, FileError> {
+        let direction = DVec3::from_array(table.forearm_direction);
+        // 1e-6: a unit vector typed with six digits.
+        if !((direction.length() - 1.0).abs() < 1e-6) {
+            let message = format!("forearm_direction {direction} is not a unit vector");
+            return Err(self.error(&table.elbow, message));
+        }
+        let [upper, lower] = &table.forearm;
+        Ok(SideLayout {
+            toe: self.site(&table.toe, parts)?,
+            ankle: self.joint(&table.ankle, parts)?,
+            knee: self.joint(&table.knee, parts)?,
+            hip: self.joint(&table.hip, parts)?,
+            shoulder: self.joint(&table.shoulder, parts)?,
+            shoulder_roll: self.joint(&table.shoulder_roll, parts)?,
+            elbow: self.site(&table.elbow, parts)?,
+            forearm: [self.joint(upper, parts)?, self.joint(lower, parts)?],
+            forearm_direction: direction,
+        })
+    }
+
+    fn study(
+        &self,
+        table: &StudyTable,
+        postures: &BTreeMap<String, BTreeMap<Name, f64>>,
+        parts: &Parts,
+    ) -> Result<StudySetup, FileError> {
+        let start = &table.start_posture;
+        if !postures.contains_key(start.get_ref()) {
+            let message = format!("posture {} is not in [postures]", start.get_ref());
+            return Err(self.error(start, message));
+        }
+        let mut stops = Vec::new();
+        for (name, &[lower, upper]) in &table.stops_rad {
+            let id = self.joint(name, parts)?;
+            if !(lower < upper && lower.is_finite() && upper.is_finite()) {
+                let message = format!("a range needs lower < upper, not {lower}..{upper}");
+                return Err(self.error(name, message));
+            }
+            stops.push((id, Range { lower, upper }));
+        }
+        Ok(StudySetup {
+            start_posture: start.get_ref().clone(),
+            stops,
+        })
+    }
+
+    fn postures(
+        &self,
+        table: &BTreeMap<String, BTreeMap<Name, f64>>,
+        robot: &Robot,
+    ) -> Result<BTreeMap<String, JointAngles>, FileError> {
+        let mut postures = BTreeMap::new();
+        for (posture, joints) in table {
+            let mut angles = JointAngles::zero(robot);
+            for (name, &angle) in joints {
+                let id = robot.joint(name.get_ref()).ok_or_else(|| {
+                    self.unknown(name, "joint", robot.joints.iter().map(|j| j.name.as_str()))
+                })?;
+                if !angle.is_finite() {
+                    let message = format!("{} cannot be at {angle} rad", name.get_ref());
+                    return Err(self.error(name, message));
+                }
+                angles[id] = angle;
+            }
+            postures.insert(posture.clone(), angles);
+        }
+        Ok(postures)
+    }
+}

@@ -1,0 +1,190 @@
+//! One closed-chain phase in simulation, from a stated start pose.
+//!
+//! As in the published recordings: the robot lies on its belly in the stored start pose, the
+//! servos hold it until it has settled, then the phase begins. The command changes every control
+//! step and is held in between; row k is the mean over control step k, stamped with its end.
+
+use std::f64::consts::FRAC_PI_2;
+
+use prone::frames::{Ground, Root, Transform};
+use prone::gait::{CheckedTrajectory, Gait, PhaseDuration, TrajectoryError};
+use prone::robot::JointAngles;
+
+use crate::regime::CONTROL_STEP;
+use crate::simulation::{Placement, Simulation, SimulationError, Snapshot};
+use crate::world::World;
+
+/// How long the servos hold the start pose before the phase, s. From half a second on, longer
+/// changes nothing; none at all starts the phase in mid-fall.
+pub const SETTLE: f64 = 1.0;
+
+/// Record of one phase.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pull {
+    /// The trajectory that was commanded.
+    pub trajectory: CheckedTrajectory,
+    /// Pose of the root when the phase began.
+    pub start: Transform<Ground, Root>,
+    /// One row per control step.
+    pub rows: Vec<Row>,
+    /// Positions at equally spaced instants, first at the start, last at the end of the phase.
+    pub snapshots: Vec<Snapshot>,
+    /// Engine steps done, settling included.
+    pub engine_steps: usize,
+}
+
+/// One control step of a pull.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// End of the step, s since the phase began.
+    pub time: f64,
+    /// Commanded joint angles, rad.
+    pub command: JointAngles,
+    /// Joint angles at the end of the step, rad.
+    pub angles: JointAngles,
+    /// **Actuator torque** of each joint about its axis, mean over the step, N·m.
+    pub actuator_torque: Vec<f64>,
+    /// Normal contact force by [`prone::robot::ContactGroup::ALL`], mean over the step, N.
+    pub contact: [f64; 4],
+    /// Highest point of any shape at the end of the step, m.
+    pub top: f64,
+    /// Highest point of the head at the end of the step, m.
+    pub head_top: f64,
+    /// Pose of the root at the end of the step.
+    pub ground_from_root: Transform<Ground, Root>,
+}
+
+/// Why a pull has no record.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum PullError {
+    /// The gait gives no trajectory.
+    #[error(transparent)]
+    Trajectory(#[from] TrajectoryError),
+    /// The run broke down.
+    #[error("gait {gait} at {duration_s} s: {source}")]
+    Simulation {
+        /// The gait's name.
+        gait: String,
+        /// Duration of the phase, s.
+        duration_s: f64,
+        /// What happened.
+        source: SimulationError,
+    },
+    /// The robot's study names a posture it does not have.
+    #[error("robot {robot} has no posture {posture:?} to start from")]
+    StartPosture {
+        /// The robot's name.
+        robot: String,
+        /// The posture's name.
+        posture: String,
+    },
+}
+
+/// The trajectory that [`run`] commands: one sample per control step.
+///
+/// # Errors
+/// [`TrajectoryError`].
+pub fn plan(
+    world: &World,
+    gait: &Gait,
+    duration: PhaseDuration,
+) -> Result<CheckedTrajectory, TrajectoryError> {
+    CheckedTrajectory::plan(
+        world.robot(),
+        world.stops(),
+        gait,
+        duration,
+        control_steps(duration),
+    )
+}
+
+/// Runs one phase of a gait; `pictures` positions are kept for later ray casting.
+///
+/// # Errors
+/// [`PullError`].
+pub fn run(
+    world: &World,
+    gait: &Gait,
+    duration: PhaseDuration,
+    pictures: usize,
+) -> Result<Pull, PullError> {
+    let trajectory = plan(world, gait, duration)?;
+    let robot = world.robot();
+    let posture = robot
+        .postures
+        .get(&robot.study.start_posture)
+        .ok_or_else(|| PullError::StartPosture {
+            robot: robot.name.clone(),
+            posture: robot.study.start_posture.clone(),
+        })?;
+    let mut simulation = Simulation::new(
+        world,
+        &Placement {
+            posture: posture.clone(),
+            pitch: FRAC_PI_2,
+        },
+    );
+    let broken = |source| PullError::Simulation {
+        gait: gait.name.clone(),
+        duration_s: duration.seconds(),
+        source,
+    };
+    for _ in 0..whole_steps(SETTLE) {
+        simulation.control_step().map_err(broken)?;
+    }
+
+    let start = simulation.ground_from_root();
+    let steps = control_steps(duration);
+    let mut snapshots = Vec::with_capacity(pictures);
+    let mut rows = Vec::with_capacity(steps);
+    for (k, sample) in trajectory.samples()[..steps].iter().enumerate() {
+        while snapshots.len() < pictures && due(snapshots.len(), pictures, steps) <= k {
+            snapshots.push(simulation.snapshot());
+        }
+        simulation.command(&sample.joints);
+        let means = simulation.control_step().map_err(broken)?;
+        let poses = simulation.body_poses();
+        rows.push(Row {
+            time: (k + 1) as f64 * CONTROL_STEP,
+            command: sample.joints.clone(),
+            angles: simulation.joint_angles(),
+            actuator_torque: means.actuator_torque,
+            contact: means.contact,
+            top: robot.top(&poses, |_| true),
+            head_top: robot.top(&poses, |shape| robot.bodies[shape.body.0].is_head),
+            ground_from_root: simulation.ground_from_root(),
+        });
+    }
+    while snapshots.len() < pictures {
+        snapshots.push(simulation.snapshot());
+    }
+    Ok(Pull {
+        trajectory,
+        start,
+        rows,
+        snapshots,
+        engine_steps: simulation.steps(),
+    })
+}
+
+/// Control step before which picture `index` of `count` is taken.
+fn due(index: usize, count: usize, steps: usize) -> usize {
+    if count < 2 {
+        0
+    } else {
+        index * steps / (count - 1)
+    }
+}
+
+fn control_steps(duration: PhaseDuration) -> usize {
+    whole_steps(duration.seconds())
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a phase lasts 0.1 to 600 s, so this is 2 to 12,000"
+)]
+fn whole_steps(seconds: f64) -> usize {
+    (seconds / CONTROL_STEP).round() as usize
+}

@@ -1,0 +1,92 @@
+//! Named contact regimes and the numbers of the simulation, each with its source.
+//!
+//! The planted chain is statically indeterminate: how much toes and elbows squeeze it between
+//! them, and with it every torque, depends on how friction is modelled. So friction is never a
+//! free number here but a property of a named regime, and every record says which one it used.
+
+/// How contacts, stops and motors are modelled.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Regime {
+    /// Name in records.
+    pub name: &'static str,
+    /// Sliding friction of floor and robot (the engine takes the larger of two geoms).
+    pub friction: f64,
+    /// Ratio of frictional to normal constraint impedance.
+    pub impratio: f64,
+    /// Which joint stops hold.
+    pub stops: Stops,
+    /// Which torque limit holds.
+    pub effort: Effort,
+}
+
+/// Which joint stops a regime uses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stops {
+    /// The maker's.
+    Maker,
+    /// The robot's study stops: a sagging joint must not lean on its stop, which would take the
+    /// torque away from the motor that is measured.
+    Study,
+}
+
+/// Which torque limit a regime uses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Effort {
+    /// The maker's effort limit of each joint.
+    Published,
+    /// The same limit for all joints, N·m.
+    Uniform(f64),
+}
+
+impl Regime {
+    /// Slippery contacts, so that the chain squeezes nothing: the recordings had practically no
+    /// internal squeeze (−0.3 ± 2.3 N), and their servos a limit of 30 N·m.
+    pub const TORQUE_STUDY: Self = Self {
+        name: "torque-study",
+        friction: 0.05,
+        impratio: 1.0,
+        stops: Stops::Study,
+        effort: Effort::Uniform(30.0),
+    };
+
+    /// Contacts that stick, with the maker's limits on: for moving forward.
+    pub const LOCOMOTION: Self = Self {
+        name: "locomotion",
+        friction: 0.7,
+        impratio: 10.0,
+        stops: Stops::Maker,
+        effort: Effort::Published,
+    };
+}
+
+/// Length of one engine step, s. 5 ms settles the same but is wrong in motion; 1 ms changes the
+/// study's costs by about one percent.
+pub const TIME_STEP: f64 = 0.0025;
+
+/// Length of one control step, s: the recordings' commands and torques change every 50 ms.
+pub const CONTROL_STEP: f64 = 0.05;
+
+/// Engine steps in one control step.
+pub const STEPS_PER_CONTROL: usize = 20;
+
+/// Servo law of the recordings: speed command per position error, 1/s.
+pub const SERVO_RATE: f64 = 20.0;
+
+/// Servo law of the recordings: largest speed command, rad/s.
+pub const SERVO_SPEED: f64 = 3.0;
+
+/// Soft-contact time constant, s, and damping ratio (the engine's default).
+pub const SOLREF: [f64; 2] = [0.02, 1.0];
+
+/// Soft-contact impedance: from .9 to .99 over 1 mm of penetration, the engine's default curve.
+pub const SOLIMP: [f64; 5] = [0.9, 0.99, 0.001, 0.5, 2.0];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_control_step_is_a_whole_number_of_engine_steps() {
+        assert!((STEPS_PER_CONTROL as f64 * TIME_STEP - CONTROL_STEP).abs() < 1e-15);
+    }
+}

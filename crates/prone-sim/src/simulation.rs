@@ -1,0 +1,261 @@
+//! One run of a world: servos, steps, and what is read from the engine.
+
+use std::sync::Arc;
+
+use glam::{DQuat, DVec3};
+use mujoco_rs::prelude::*;
+
+use prone::frames::{Ground, Link, Point, Root, Transform};
+use prone::robot::{BodyPoses, ContactGroup, JointAngles, JointId, Robot};
+
+use crate::regime::{SERVO_RATE, SERVO_SPEED, STEPS_PER_CONTROL, TIME_STEP};
+use crate::world::World;
+
+/// Coordinates of a free root: position and quaternion.
+const FREE_JOINT: usize = 7;
+
+/// A robot moving in a world.
+#[derive(Debug)]
+pub struct Simulation<'w> {
+    world: &'w World,
+    data: MjData<Arc<MjModel>>,
+    reference: Vec<f64>,
+    steps: usize,
+}
+
+/// How a run begins.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Placement {
+    /// Joint angles, brought within the world's stops.
+    pub posture: JointAngles,
+    /// Turn of the root about +y, rad; a quarter turn lays a standing robot on its belly.
+    pub pitch: f64,
+}
+
+/// The full position of a run at one instant, for pictures.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Snapshot(Vec<f64>);
+
+/// Means over one control step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StepMeans {
+    /// **Actuator torque** of each joint about its axis, N·m.
+    pub actuator_torque: Vec<f64>,
+    /// Normal contact force by [`ContactGroup::ALL`], both sides together, N.
+    pub contact: [f64; 4],
+}
+
+/// Why a run cannot go on.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SimulationError {
+    /// Position or speed is no longer a number the engine accepts.
+    #[error("the simulation diverged at {time_s:.3} s")]
+    Diverged {
+        /// Time since the run began, s.
+        time_s: f64,
+    },
+}
+
+impl<'w> Simulation<'w> {
+    /// Lays the robot on the floor: the posture within the stops, the root pitched, the lowest
+    /// point of any shape on z = 0, all speeds zero, and the servos holding that posture.
+    pub fn new(world: &'w World, placement: &Placement) -> Self {
+        let mut data = MjData::new(Arc::clone(&world.model));
+        let robot = world.robot();
+        let angles: Vec<f64> = placement
+            .posture
+            .as_slice()
+            .iter()
+            .zip(world.stops())
+            .map(|(angle, stop)| angle.clamp(stop.lower, stop.upper))
+            .collect();
+        let turn = DQuat::from_rotation_y(placement.pitch);
+        let poses = robot.forward_kinematics(
+            Transform::<Ground, Root>::new(turn, DVec3::ZERO),
+            &JointAngles::from_vec(angles.clone()),
+        );
+        let height = -robot.bottom(&poses);
+        let qpos = data.qpos_mut();
+        qpos[..FREE_JOINT].copy_from_slice(&[0.0, 0.0, height, turn.w, turn.x, turn.y, turn.z]);
+        qpos[FREE_JOINT..].copy_from_slice(&angles);
+        data.forward();
+        Self {
+            world,
+            data,
+            reference: angles,
+            steps: 0,
+        }
+    }
+
+    /// The robot.
+    pub fn robot(&self) -> &'w Robot {
+        self.world.robot()
+    }
+
+    /// What the servos hold from now on.
+    pub fn command(&mut self, reference: &JointAngles) {
+        self.reference.copy_from_slice(reference.as_slice());
+    }
+
+    /// One control step; returns means over its engine steps.
+    ///
+    /// # Errors
+    /// [`SimulationError::Diverged`].
+    pub fn control_step(&mut self) -> Result<StepMeans, SimulationError> {
+        let mut means = StepMeans {
+            actuator_torque: vec![0.0; self.reference.len()],
+            contact: [0.0; 4],
+        };
+        for _ in 0..STEPS_PER_CONTROL {
+            self.step();
+            for (sum, torque) in means
+                .actuator_torque
+                .iter_mut()
+                .zip(self.data.actuator_force())
+            {
+                *sum += torque;
+            }
+            self.add_contacts(&mut means.contact);
+        }
+        let steps = STEPS_PER_CONTROL as f64;
+        means
+            .actuator_torque
+            .iter_mut()
+            .for_each(|sum| *sum /= steps);
+        means.contact.iter_mut().for_each(|sum| *sum /= steps);
+        self.check()?;
+        Ok(means)
+    }
+
+    /// One engine step under the servo law `speed = clip(rate · error, ±largest)`.
+    pub fn step(&mut self) {
+        for (index, reference) in self.reference.iter().enumerate() {
+            let error = reference - self.data.qpos()[FREE_JOINT + index];
+            self.data.ctrl_mut()[index] = (SERVO_RATE * error).clamp(-SERVO_SPEED, SERVO_SPEED);
+        }
+        self.data.step();
+        self.steps += 1;
+    }
+
+    /// Joint angles now, rad.
+    pub fn joint_angles(&self) -> JointAngles {
+        JointAngles::from_vec(self.data.qpos()[FREE_JOINT..].to_vec())
+    }
+
+    /// One joint's angle now, rad.
+    pub fn joint_angle(&self, joint: JointId) -> f64 {
+        self.data.qpos()[FREE_JOINT + joint.0]
+    }
+
+    /// Pose of the root now.
+    pub fn ground_from_root(&self) -> Transform<Ground, Root> {
+        root_pose(self.data.qpos())
+    }
+
+    /// Poses of all bodies now.
+    pub fn body_poses(&self) -> BodyPoses<Ground> {
+        self.robot()
+            .forward_kinematics(self.ground_from_root(), &self.joint_angles())
+    }
+
+    /// Poses of all bodies as the engine has them after its last step; for cross-checks.
+    pub fn engine_body_poses(&mut self) -> BodyPoses<Ground> {
+        self.data.forward();
+        let poses = self
+            .data
+            .xpos()
+            .iter()
+            .zip(self.data.xquat())
+            .skip(1) // the world
+            .map(|(&position, &[w, x, y, z])| {
+                Transform::<Ground, Link>::new(
+                    DQuat::from_xyzw(x, y, z, w),
+                    DVec3::from_array(position),
+                )
+            });
+        BodyPoses::from_vec(poses.collect())
+    }
+
+    /// The position now, for [`crate::camera`].
+    pub fn snapshot(&self) -> Snapshot {
+        Snapshot(self.data.qpos().to_vec())
+    }
+
+    /// Engine steps done so far.
+    pub const fn steps(&self) -> usize {
+        self.steps
+    }
+
+    fn add_contacts(&self, sums: &mut [f64; 4]) {
+        for (index, contact) in self.data.contact().iter().enumerate() {
+            let group = contact
+                .geom
+                .iter()
+                .find_map(|&geom| self.world.geom_groups[usize::try_from(geom).ok()?]);
+            if let Some(group) = group {
+                let [normal, ..] = self.data.contact_force(index);
+                sums[group_index(group)] += normal;
+            }
+        }
+    }
+
+    fn check(&self) -> Result<(), SimulationError> {
+        let warned = [
+            MjtWarning::mjWARN_BADQPOS,
+            MjtWarning::mjWARN_BADQVEL,
+            MjtWarning::mjWARN_BADQACC,
+        ]
+        .iter()
+        .any(|&warning| self.data.warning()[warning as usize].number > 0);
+        if warned {
+            return Err(SimulationError::Diverged {
+                time_s: self.steps as f64 * TIME_STEP,
+            });
+        }
+        Ok(())
+    }
+}
+
+/// The engine keeps a free joint as position, then quaternion with its real part first.
+fn root_pose(qpos: &[f64]) -> Transform<Ground, Root> {
+    let [x, y, z, qw, qx, qy, qz] = qpos[..FREE_JOINT] else {
+        unreachable!("a world has a robot with a free root");
+    };
+    Transform::new(
+        DQuat::from_xyzw(qx, qy, qz, qw).normalize(),
+        DVec3::new(x, y, z),
+    )
+}
+
+impl Snapshot {
+    fn parts(&self) -> (Transform<Ground, Root>, JointAngles) {
+        let angles = JointAngles::from_vec(self.0[FREE_JOINT..].to_vec());
+        (root_pose(&self.0), angles)
+    }
+}
+
+const fn group_index(group: ContactGroup) -> usize {
+    match group {
+        ContactGroup::Toe => 0,
+        ContactGroup::Elbow => 1,
+        ContactGroup::Torso => 2,
+        ContactGroup::Leg => 3,
+    }
+}
+
+impl World {
+    /// Centre of mass of the robot at a snapshot.
+    pub fn centre_of_mass(&self, snapshot: &Snapshot) -> Point<Ground> {
+        let (ground_from_root, angles) = snapshot.parts();
+        let poses = self.robot().forward_kinematics(ground_from_root, &angles);
+        self.robot().centre_of_mass(&poses)
+    }
+
+    /// The engine's data at a snapshot, for [`crate::camera::ray_cast`].
+    pub fn at(&self, snapshot: &Snapshot) -> MjData<Arc<MjModel>> {
+        let mut data = MjData::new(Arc::clone(&self.model));
+        data.qpos_mut().copy_from_slice(&snapshot.0);
+        data.forward();
+        data
+    }
+}

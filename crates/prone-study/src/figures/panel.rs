@@ -1,0 +1,245 @@
+//! One plot: a frame with two axes, curves inside, notes beside their points.
+
+use super::axis::{Axis, Ticks};
+use super::font::{self, Weight};
+use super::style::{GRID, INK, MINOR_GRID, Marker, REFERENCE, SMALL_SIZE, Stroke, TEXT_SIZE};
+use super::svg::{Anchor, Canvas, Point, Rect, TextStyle};
+
+/// Units of the drawing per labelled tick, at least.
+const ACROSS_PER_TICK: f64 = 40.0;
+const UP_PER_TICK: f64 = 20.0;
+/// Gap between the frame and the labels of its ticks.
+const TICK_GAP: f64 = 6.0;
+
+/// Whether both axes have the same scale.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Aspect {
+    /// Each axis fills its side of the frame.
+    Free,
+    /// One unit is as long across as it is up; the upper ends give way.
+    Equal,
+}
+
+/// One plot.
+#[derive(Debug, Clone)]
+pub(super) struct Panel {
+    pub(super) title: String,
+    pub(super) x: Axis,
+    pub(super) y: Axis,
+    pub(super) aspect: Aspect,
+    /// Below the curves.
+    pub(super) rules: Vec<Rule>,
+    /// Later ones above earlier ones.
+    pub(super) curves: Vec<Curve>,
+    /// Above the curves.
+    pub(super) notes: Vec<Note>,
+}
+
+/// Points joined by a line, in the units of the axes.
+#[derive(Debug, Clone)]
+pub(super) struct Curve {
+    pub(super) points: Vec<Point>,
+    pub(super) stroke: Stroke,
+    pub(super) marker: Option<Marker>,
+}
+
+/// A straight line from edge to edge.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Rule {
+    /// Upright, at this x.
+    At(f64, Stroke),
+    /// Level, at this y.
+    Level(f64, Stroke),
+}
+
+/// A few words beside a point.
+#[derive(Debug, Clone)]
+pub(super) struct Note {
+    /// The point, in the units of the axes.
+    pub(super) at: Point,
+    /// From the point to the text, in units of the drawing: right, down.
+    pub(super) offset: Point,
+    pub(super) anchor: Anchor,
+    pub(super) text: String,
+}
+
+impl Panel {
+    /// A plot of `curves`, with a line at zero if zero is in range.
+    pub(super) fn new(title: impl Into<String>, x: Axis, y: Axis, curves: Vec<Curve>) -> Self {
+        let zero = y
+            .contains(0.0)
+            .then_some(Rule::Level(0.0, Stroke::solid(REFERENCE, 1.0)));
+        Self {
+            title: title.into(),
+            x,
+            y,
+            aspect: Aspect::Free,
+            rules: zero.into_iter().collect(),
+            curves,
+            notes: Vec::new(),
+        }
+    }
+
+    /// Widest label of the ticks on the left of a frame of this height.
+    pub(super) fn tick_label_width(&self, frame_height: f64) -> f64 {
+        let widths = ticks_up(&self.y, frame_height).major;
+        widths
+            .iter()
+            .map(|tick| font::width(&tick.1, SMALL_SIZE, Weight::Regular))
+            .fold(0.0, f64::max)
+    }
+
+    /// Draws the plot; labels go outside `frame`, the one on the left `label_gap` away from it.
+    pub(super) fn draw(&self, canvas: &mut Canvas, frame: Rect, label_gap: f64) {
+        let (x, y) = self.scaled(frame);
+        let view = View {
+            x: &x,
+            y: &y,
+            frame,
+        };
+        view.draw_grid(canvas);
+        canvas.clipped(frame, |canvas| {
+            self.rules
+                .iter()
+                .for_each(|rule| view.draw_rule(canvas, *rule));
+            self.curves
+                .iter()
+                .for_each(|curve| view.draw_curve(canvas, curve));
+        });
+        canvas.outline(frame, Stroke::solid(INK, 1.0));
+        view.draw_labels(canvas, label_gap);
+        self.notes
+            .iter()
+            .for_each(|note| view.draw_note(canvas, note));
+        let title = TextStyle::new(TEXT_SIZE, Anchor::Start).bold();
+        canvas.text((frame.left, frame.top - 7.0), &self.title, title);
+    }
+
+    /// The axes, longer where equal scales ask for it.
+    fn scaled(&self, frame: Rect) -> (Axis, Axis) {
+        let (mut x, mut y) = (self.x.clone(), self.y.clone());
+        if self.aspect == Aspect::Equal {
+            let scale = ((x.high - x.low) / frame.width).max((y.high - y.low) / frame.height);
+            x.high = x.low + scale * frame.width;
+            y.high = y.low + scale * frame.height;
+        }
+        (x, y)
+    }
+}
+
+/// Axes laid on a frame.
+struct View<'a> {
+    x: &'a Axis,
+    y: &'a Axis,
+    frame: Rect,
+}
+
+impl View<'_> {
+    fn across(&self, x: f64) -> f64 {
+        self.frame.left + self.x.fraction(x) * self.frame.width
+    }
+
+    fn down(&self, y: f64) -> f64 {
+        self.frame.bottom() - self.y.fraction(y) * self.frame.height
+    }
+
+    fn place(&self, point: &Point) -> Point {
+        (self.across(point.0), self.down(point.1))
+    }
+
+    fn draw_grid(&self, canvas: &mut Canvas) {
+        let (x, y) = (
+            ticks_across(self.x, self.frame.width),
+            ticks_up(self.y, self.frame.height),
+        );
+        let fine = Stroke::solid(MINOR_GRID, 0.7);
+        x.minor
+            .iter()
+            .for_each(|x| self.draw_rule(canvas, Rule::At(*x, fine)));
+        y.minor
+            .iter()
+            .for_each(|y| self.draw_rule(canvas, Rule::Level(*y, fine)));
+        let coarse = Stroke::solid(GRID, 0.9);
+        x.major
+            .iter()
+            .for_each(|tick| self.draw_rule(canvas, Rule::At(tick.0, coarse)));
+        y.major
+            .iter()
+            .for_each(|tick| self.draw_rule(canvas, Rule::Level(tick.0, coarse)));
+    }
+
+    fn draw_rule(&self, canvas: &mut Canvas, rule: Rule) {
+        let frame = self.frame;
+        match rule {
+            Rule::At(x, stroke) => {
+                let x = self.across(x);
+                canvas.line((x, frame.top), (x, frame.bottom()), stroke);
+            }
+            Rule::Level(y, stroke) => {
+                let y = self.down(y);
+                canvas.line((frame.left, y), (frame.right(), y), stroke);
+            }
+        }
+    }
+
+    fn draw_curve(&self, canvas: &mut Canvas, curve: &Curve) {
+        let points: Vec<Point> = curve.points.iter().map(|point| self.place(point)).collect();
+        canvas.curve(&points, curve.stroke);
+        if let Some(marker) = curve.marker {
+            for at in points {
+                canvas.marker(at, marker, curve.stroke.colour);
+            }
+        }
+    }
+
+    fn draw_labels(&self, canvas: &mut Canvas, label_gap: f64) {
+        let frame = self.frame;
+        let below = frame.bottom() + TICK_GAP + SMALL_SIZE * 0.8;
+        for (value, label) in ticks_across(self.x, frame.width).major {
+            let style = TextStyle::new(SMALL_SIZE, Anchor::Middle);
+            canvas.text((self.across(value), below), &label, style);
+        }
+        for (value, label) in ticks_up(self.y, frame.height).major {
+            let at = (frame.left - TICK_GAP, self.down(value) + SMALL_SIZE * 0.35);
+            canvas.text(at, &label, TextStyle::new(SMALL_SIZE, Anchor::End));
+        }
+        let style = TextStyle::new(TEXT_SIZE, Anchor::Middle);
+        let middle = (
+            frame.left + frame.width / 2.0,
+            frame.top + frame.height / 2.0,
+        );
+        canvas.text((middle.0, below + TEXT_SIZE * 1.4), &self.x.label, style);
+        canvas.text(
+            (frame.left - label_gap, middle.1),
+            &self.y.label,
+            style.upward(),
+        );
+    }
+
+    fn draw_note(&self, canvas: &mut Canvas, note: &Note) {
+        let (across, down) = self.place(&note.at);
+        let at = (across + note.offset.0, down + note.offset.1);
+        canvas.text(
+            at,
+            &note.text,
+            TextStyle::new(SMALL_SIZE, note.anchor).with_halo(),
+        );
+    }
+}
+
+fn ticks_across(axis: &Axis, width: f64) -> Ticks {
+    axis.ticks(whole(width / ACROSS_PER_TICK))
+}
+
+fn ticks_up(axis: &Axis, height: f64) -> Ticks {
+    axis.ticks(whole(height / UP_PER_TICK))
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a few ticks"
+)]
+fn whole(count: f64) -> usize {
+    count as usize
+}

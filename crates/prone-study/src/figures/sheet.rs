@@ -1,0 +1,184 @@
+//! A whole drawing: title, key, a grid of panels, a colour bar.
+//!
+//! The key stands above the panels and the bar beside them, so that neither covers a curve.
+
+use super::font::{self, Weight};
+use super::panel::Panel;
+use super::style::{
+    Colour, INK, Marker, SHEET_WIDTH, SMALL_SIZE, Stroke, TEXT_SIZE, TITLE_SIZE, step_colour,
+};
+use super::svg::{Anchor, Canvas, Point, Rect, TextStyle};
+
+/// Paper around everything.
+const MARGIN: f64 = 12.0;
+/// Above a frame: the panel's title.
+const ABOVE: f64 = 28.0;
+/// Below a frame: labels of ticks and axis.
+const BELOW: f64 = 50.0;
+/// Between a frame and the next panel's labels; a tick's label may stick out this far.
+const BESIDE: f64 = 18.0;
+/// Height of a line of the key.
+const KEY_LINE: f64 = 22.0;
+/// Length of a line's sample in the key.
+const SAMPLE: f64 = 34.0;
+/// Height of one step of the colour bar, at most.
+const HIGHEST_BAND: f64 = 70.0;
+/// Width kept for the colour bar.
+const BAR_SPACE: f64 = 84.0;
+
+/// What to draw on one sheet.
+#[derive(Debug, Clone)]
+pub(super) struct Sheet {
+    pub(super) key: Vec<KeyEntry>,
+    pub(super) bar: Option<ColourBar>,
+    pub(super) columns: usize,
+    /// Height of each panel's frame.
+    pub(super) frame_height: f64,
+    /// Row by row.
+    pub(super) panels: Vec<Panel>,
+}
+
+/// One line style and its meaning.
+#[derive(Debug, Clone)]
+pub(super) struct KeyEntry {
+    pub(super) label: String,
+    pub(super) stroke: Stroke,
+    pub(super) marker: Option<Marker>,
+}
+
+/// Colours of the steps of a quantity.
+#[derive(Debug, Clone)]
+pub(super) struct ColourBar {
+    /// Quantity and unit.
+    pub(super) label: String,
+    /// One band each, from the dark end to the light one.
+    pub(super) steps: Vec<String>,
+}
+
+impl Sheet {
+    /// The drawing as SVG.
+    pub(super) fn draw(&self, stem: &str, title: &str, description: &str) -> String {
+        let key = self.key_places();
+        let key_lines = key.last().map_or(0.0, |place| place.1 + 1.0);
+        let top = MARGIN + TITLE_SIZE + 8.0 + key_lines * KEY_LINE;
+        let rows = self.panels.len().div_ceil(self.columns.max(1)) as f64;
+        let height = top + rows * (ABOVE + self.frame_height + BELOW) + MARGIN / 2.0;
+
+        let mut canvas = Canvas::new(stem, SHEET_WIDTH, height);
+        let heading = TextStyle::new(TITLE_SIZE, Anchor::Start).bold();
+        canvas.text((MARGIN, MARGIN + TITLE_SIZE * 0.85), title, heading);
+        for (entry, place) in self.key.iter().zip(key) {
+            let middle = MARGIN + TITLE_SIZE + 8.0 + (place.1 + 0.5) * KEY_LINE;
+            entry.draw(&mut canvas, (place.0, middle));
+        }
+        self.draw_panels(&mut canvas, top);
+        if let Some(bar) = &self.bar {
+            bar.draw(&mut canvas, top + ABOVE, height - MARGIN / 2.0 - BELOW);
+        }
+        canvas.finish(title, description)
+    }
+
+    fn draw_panels(&self, canvas: &mut Canvas, top: f64) {
+        let columns = self.columns.max(1);
+        let ticks = self
+            .panels
+            .iter()
+            .map(|panel| panel.tick_label_width(self.frame_height));
+        let label_gap = ticks.fold(0.0, f64::max) + 14.0;
+        let left = label_gap + TEXT_SIZE + 4.0;
+        let right = if self.bar.is_some() {
+            BAR_SPACE
+        } else {
+            MARGIN / 2.0
+        };
+        let cell = (SHEET_WIDTH - MARGIN / 2.0 - right) / columns as f64;
+        for (index, panel) in self.panels.iter().enumerate() {
+            let (row, column) = ((index / columns) as f64, (index % columns) as f64);
+            let frame = Rect {
+                left: MARGIN / 2.0 + column * cell + left,
+                top: top + row * (ABOVE + self.frame_height + BELOW) + ABOVE,
+                width: cell - left - BESIDE,
+                height: self.frame_height,
+            };
+            panel.draw(canvas, frame, label_gap);
+        }
+    }
+
+    /// Left end and line of each entry of the key.
+    fn key_places(&self) -> Vec<Point> {
+        let (mut left, mut line) = (MARGIN, 0.0);
+        let mut places = Vec::new();
+        for entry in &self.key {
+            let width = entry.width();
+            if left > MARGIN && left + width > SHEET_WIDTH - MARGIN {
+                (left, line) = (MARGIN, line + 1.0);
+            }
+            places.push((left, line));
+            left += width;
+        }
+        places
+    }
+}
+
+impl KeyEntry {
+    /// Room for sample, label and a gap; some to spare where another font is wider.
+    fn width(&self) -> f64 {
+        SAMPLE + 8.0 + font::width(&self.label, TEXT_SIZE, Weight::Regular) * 1.05 + 20.0
+    }
+
+    fn draw(&self, canvas: &mut Canvas, (left, middle): Point) {
+        canvas.line((left, middle), (left + SAMPLE, middle), self.stroke);
+        if let Some(marker) = self.marker {
+            canvas.marker((left + SAMPLE / 2.0, middle), marker, self.stroke.colour);
+        }
+        let at = (left + SAMPLE + 8.0, middle + TEXT_SIZE * 0.35);
+        canvas.text(at, &self.label, TextStyle::new(TEXT_SIZE, Anchor::Start));
+    }
+}
+
+impl ColourBar {
+    /// Colour of the band `index`.
+    pub(super) fn colour(&self, index: usize) -> Colour {
+        step_colour(index, self.steps.len())
+    }
+
+    /// Draws the bar from `top` to `bottom`, or less far if its steps are few.
+    fn draw(&self, canvas: &mut Canvas, top: f64, bottom: f64) {
+        let count = self.steps.len().max(1) as f64;
+        let band = ((bottom - top) / count).min(HIGHEST_BAND);
+        let (left, height) = (SHEET_WIDTH - BAR_SPACE + 10.0, count * band);
+        let area = Rect {
+            left,
+            top: (top + bottom - height) / 2.0,
+            width: 16.0,
+            height,
+        };
+        for (index, step) in self.steps.iter().enumerate() {
+            let top = area.bottom() - (index as f64 + 1.0) * band;
+            canvas.fill(
+                Rect {
+                    top,
+                    height: band,
+                    ..area
+                },
+                self.colour(index),
+            );
+            let at = (area.right() + 6.0, top + band / 2.0 + SMALL_SIZE * 0.35);
+            canvas.text(at, step, TextStyle::new(SMALL_SIZE, Anchor::Start));
+        }
+        canvas.outline(area, Stroke::solid(INK, 1.0));
+        let widest = self
+            .steps
+            .iter()
+            .map(|step| font::width(step, SMALL_SIZE, Weight::Regular));
+        let at = (
+            area.right() + 6.0 + widest.fold(0.0, f64::max) + 4.0 + TEXT_SIZE,
+            area.top + area.height / 2.0,
+        );
+        canvas.text(
+            at,
+            &self.label,
+            TextStyle::new(TEXT_SIZE, Anchor::Middle).upward(),
+        );
+    }
+}

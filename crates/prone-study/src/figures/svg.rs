@@ -1,0 +1,330 @@
+//! A canvas that writes SVG: lines, curves, markers, texts, nothing about plots.
+//!
+//! Coordinates are rounded to a hundredth of a unit, so that the bytes are the same everywhere.
+
+use super::font::Weight;
+use super::style::{Colour, FONT_FAMILY, Fill, INK, Marker, PAPER, Shape, Stroke};
+
+/// A place on the canvas: right, down.
+pub(super) type Point = (f64, f64);
+
+/// An upright rectangle on the canvas.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Rect {
+    pub(super) left: f64,
+    pub(super) top: f64,
+    pub(super) width: f64,
+    pub(super) height: f64,
+}
+
+impl Rect {
+    pub(super) fn right(&self) -> f64 {
+        self.left + self.width
+    }
+
+    pub(super) fn bottom(&self) -> f64 {
+        self.top + self.height
+    }
+}
+
+/// Which end of a text its place is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+/// Direction a text runs in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Direction {
+    Right,
+    Up,
+}
+
+/// What surrounds the letters of a text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Edge {
+    Plain,
+    /// A rim of paper, so that a line behind does not run into the letters.
+    Halo,
+}
+
+/// How a text is set.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct TextStyle {
+    pub(super) size: f64,
+    pub(super) weight: Weight,
+    pub(super) anchor: Anchor,
+    pub(super) direction: Direction,
+    pub(super) edge: Edge,
+}
+
+impl TextStyle {
+    /// Regular text running right.
+    pub(super) fn new(size: f64, anchor: Anchor) -> Self {
+        Self {
+            size,
+            weight: Weight::Regular,
+            anchor,
+            direction: Direction::Right,
+            edge: Edge::Plain,
+        }
+    }
+
+    /// The same in bold.
+    pub(super) fn bold(self) -> Self {
+        Self {
+            weight: Weight::Bold,
+            ..self
+        }
+    }
+
+    /// The same with a rim of paper.
+    pub(super) fn with_halo(self) -> Self {
+        Self {
+            edge: Edge::Halo,
+            ..self
+        }
+    }
+
+    /// The same running up.
+    pub(super) fn upward(self) -> Self {
+        Self {
+            direction: Direction::Up,
+            ..self
+        }
+    }
+}
+
+/// An SVG document being drawn.
+pub(super) struct Canvas {
+    stem: String,
+    size: (f64, f64),
+    body: String,
+    clips: usize,
+}
+
+impl Canvas {
+    /// White paper; `stem` makes the document's identifiers unique where several share a page.
+    pub(super) fn new(stem: &str, width: f64, height: f64) -> Self {
+        let mut canvas = Self {
+            stem: stem.to_owned(),
+            size: (width, height),
+            body: String::new(),
+            clips: 0,
+        };
+        canvas.fill(
+            Rect {
+                left: 0.0,
+                top: 0.0,
+                width,
+                height,
+            },
+            PAPER,
+        );
+        canvas
+    }
+
+    /// A filled rectangle without outline.
+    pub(super) fn fill(&mut self, area: Rect, colour: Colour) {
+        self.element(&format!(
+            "<rect{} fill=\"{}\"/>",
+            rectangle(area),
+            hex(colour)
+        ));
+    }
+
+    /// The outline of a rectangle.
+    pub(super) fn outline(&mut self, area: Rect, stroke: Stroke) {
+        self.element(&format!(
+            "<rect{} fill=\"none\"{}/>",
+            rectangle(area),
+            line_style(stroke)
+        ));
+    }
+
+    /// A straight line.
+    pub(super) fn line(&mut self, from: Point, to: Point, stroke: Stroke) {
+        self.curve(&[from, to], stroke);
+    }
+
+    /// A line through all points.
+    pub(super) fn curve(&mut self, points: &[Point], stroke: Stroke) {
+        self.element(&format!(
+            "<polyline points=\"{}\" fill=\"none\" stroke-linejoin=\"round\"{}/>",
+            list(points),
+            line_style(stroke)
+        ));
+    }
+
+    /// A marker centred on `at`.
+    pub(super) fn marker(&mut self, at: Point, marker: Marker, colour: Colour) {
+        let fill = match marker.fill {
+            Fill::Full => colour,
+            Fill::Hollow => PAPER,
+        };
+        let outline = line_style(Stroke::solid(colour, marker.radius * 0.35));
+        let shape = match corners(at, marker) {
+            Some(points) => format!("<polygon points=\"{}\"", list(&points)),
+            None => format!(
+                "<circle cx=\"{}\" cy=\"{}\" r=\"{}\"",
+                number(at.0),
+                number(at.1),
+                number(marker.radius)
+            ),
+        };
+        self.element(&format!("{shape} fill=\"{}\"{outline}/>", hex(fill)));
+    }
+
+    /// A text whose baseline passes through `at`.
+    pub(super) fn text(&mut self, at: Point, text: &str, style: TextStyle) {
+        let (x, y) = (number(at.0), number(at.1));
+        let anchor = match style.anchor {
+            Anchor::Start => "start",
+            Anchor::Middle => "middle",
+            Anchor::End => "end",
+        };
+        let weight = match style.weight {
+            Weight::Regular => "",
+            Weight::Bold => " font-weight=\"bold\"",
+        };
+        let turn = match style.direction {
+            Direction::Right => String::new(),
+            Direction::Up => format!(" transform=\"rotate(-90 {x} {y})\""),
+        };
+        let edge = match style.edge {
+            Edge::Plain => String::new(),
+            Edge::Halo => format!(
+                " paint-order=\"stroke\" stroke-linejoin=\"round\"{}",
+                line_style(Stroke::solid(PAPER, 4.0))
+            ),
+        };
+        self.element(&format!(
+            "<text x=\"{x}\" y=\"{y}\" font-size=\"{}\" text-anchor=\"{anchor}\"{weight}{turn}{edge}>{}</text>",
+            number(style.size),
+            escape(text)
+        ));
+    }
+
+    /// Draws with everything outside `area` cut off.
+    pub(super) fn clipped(&mut self, area: Rect, draw: impl FnOnce(&mut Self)) {
+        self.clips += 1;
+        let id = format!("{}-clip-{}", escape(&self.stem), self.clips);
+        self.element(&format!(
+            "<clipPath id=\"{id}\"><rect{}/></clipPath>\n<g clip-path=\"url(#{id})\">",
+            rectangle(area)
+        ));
+        draw(self);
+        self.element("</g>");
+    }
+
+    /// The document, with a name and a description for readers who do not see it.
+    pub(super) fn finish(self, title: &str, description: &str) -> String {
+        let (width, height) = (number(self.size.0), number(self.size.1));
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+             viewBox=\"0 0 {width} {height}\" role=\"img\" font-family=\"{FONT_FAMILY}\" \
+             fill=\"{}\">\n<title>{}</title>\n<desc>{}</desc>\n{}</svg>\n",
+            hex(INK),
+            escape(title),
+            escape(description),
+            self.body
+        )
+    }
+
+    fn element(&mut self, element: &str) {
+        self.body.push_str(element);
+        self.body.push('\n');
+    }
+}
+
+/// Corners of a marker; a circle has none.
+fn corners(at: Point, marker: Marker) -> Option<Vec<Point>> {
+    let r = marker.radius;
+    let around = |offsets: &[Point]| offsets.iter().map(|o| (at.0 + o.0, at.1 + o.1)).collect();
+    match marker.shape {
+        Shape::Circle => None,
+        // Sides chosen so that all shapes look equally large.
+        Shape::Square => {
+            let a = 0.9 * r;
+            Some(around(&[(-a, -a), (a, -a), (a, a), (-a, a)]))
+        }
+        Shape::Triangle => Some(around(&[
+            (0.0, -1.2 * r),
+            (1.1 * r, 0.8 * r),
+            (-1.1 * r, 0.8 * r),
+        ])),
+        Shape::Diamond => {
+            let a = 1.25 * r;
+            Some(around(&[(0.0, -a), (a, 0.0), (0.0, a), (-a, 0.0)]))
+        }
+    }
+}
+
+fn rectangle(area: Rect) -> String {
+    format!(
+        " x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"",
+        number(area.left),
+        number(area.top),
+        number(area.width),
+        number(area.height)
+    )
+}
+
+fn line_style(stroke: Stroke) -> String {
+    let dash = stroke.dash.pattern().map_or_else(String::new, |pattern| {
+        format!(" stroke-dasharray=\"{pattern}\"")
+    });
+    format!(
+        " stroke=\"{}\" stroke-width=\"{}\"{dash}",
+        hex(stroke.colour),
+        number(stroke.width)
+    )
+}
+
+fn list(points: &[Point]) -> String {
+    let pairs: Vec<String> = points
+        .iter()
+        .map(|point| format!("{},{}", number(point.0), number(point.1)))
+        .collect();
+    pairs.join(" ")
+}
+
+fn hex(colour: Colour) -> String {
+    format!("#{:02x}{:02x}{:02x}", colour.0, colour.1, colour.2)
+}
+
+/// A coordinate with at most two decimals.
+fn number(value: f64) -> String {
+    let text = format!("{value:.2}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" {
+        "0".to_owned()
+    } else {
+        text.to_owned()
+    }
+}
+
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        let written = [1.0, 100.0, 0.125, -0.001, 12.5].map(number);
+        assert_eq!(written, ["1", "100", "0.12", "0", "12.5"]);
+    }
+
+    #[test]
+    fn markup_in_a_text_is_escaped() {
+        assert_eq!(escape("a < b & \"c\""), "a &lt; b &amp; &quot;c&quot;");
+    }
+}

@@ -1,0 +1,19 @@
+//! Experiments with crawl gaits: from simulated runs to records, tables, figures and a report.
+//!
+//! [`torque_study`] simulates; everything after it reads records and computes no physics.
+//! [`reproduce`] puts the published study together as the files of one result folder.
+
+pub mod agreement;
+pub mod contact_story;
+pub mod figures;
+mod frames;
+pub mod gait_sheet;
+pub mod output;
+pub mod published;
+pub mod record;
+mod report;
+pub mod reproduce;
+pub mod robot_sheet;
+pub mod summary;
+mod tables;
+pub mod torque_study;

@@ -1,0 +1,102 @@
+//! Published figures that ours are held against.
+//!
+//! Source: the *Projected Profile* crawl gait of the NAO humanoid, master's thesis, NYU
+//! Polytechnic 2015, and IROS 2015 (doi 10.1109/IROS.2015.7354220).
+
+use serde::Deserialize;
+
+/// Values behind Figure 45: ∫ Σ τ² dt of one side at 1, 2, … 10 s, N²·m²·s.
+const NOMINAL_COSTS: [f64; 10] = [
+    1.552, 2.769, 3.946, 5.003, 6.114, 7.211, 8.354, 9.641, 10.769, 11.761,
+];
+const OPTIMAL_COSTS: [f64; 10] = [
+    1.489, 2.494, 3.330, 4.379, 5.195, 5.928, 6.558, 7.692, 8.932, 9.643,
+];
+
+/// Durations of the published study, s.
+pub const DURATIONS_S: [f64; 10] = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0];
+
+/// Advance of the real robot per crawl cycle in the two table experiments, mm: 610 mm in 9
+/// cycles, 1,676.4 mm in 25.
+pub const ROBOT_ADVANCE_MM: [f64; 2] = [610.0 / 9.0, 1676.4 / 25.0];
+
+/// The height at which Figure 26 shows the ankle's highest point, mm, as its text words it.
+pub const ANKLE_PEAK_MM: &str = "about 100";
+
+/// The published cost of a published gait, N²·m²·s.
+pub fn cost(gait: &str, duration_s: f64) -> Option<f64> {
+    let costs = match gait {
+        "nominal" => NOMINAL_COSTS,
+        "optimal" => OPTIMAL_COSTS,
+        _ => return None,
+    };
+    DURATIONS_S
+        .iter()
+        .position(|published| (published - duration_s).abs() < 1e-9)
+        .map(|index| costs[index])
+}
+
+/// Mean recorded torque in one tenth of a phase.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct TorqueBin {
+    /// Name of the gait.
+    pub gait: String,
+    /// Duration of the phase, s.
+    pub duration_s: f64,
+    /// Start of the bin, percent of the phase.
+    pub from_percent: f64,
+    /// End of the bin, percent of the phase.
+    pub to_percent: f64,
+    /// Recorded torques, N·m.
+    pub ankle_nm: f64,
+    /// See `ankle_nm`.
+    pub knee_nm: f64,
+    /// See `ankle_nm`.
+    pub hip_nm: f64,
+    /// See `ankle_nm`.
+    pub shoulder_nm: f64,
+}
+
+impl TorqueBin {
+    /// In the order of [`crate::record::JOINTS`].
+    pub const fn torques(&self) -> [f64; 4] {
+        [self.ankle_nm, self.knee_nm, self.hip_nm, self.shoulder_nm]
+    }
+}
+
+/// The recorded torques that ship with the program, by gait and duration in the file's order.
+///
+/// # Errors
+/// [`csv::Error`] if the embedded file does not parse, which a test excludes.
+pub fn torque_bins() -> Result<Vec<TorqueBin>, csv::Error> {
+    let text = include_str!("../../../data/recorded-torque-bins.csv");
+    csv::Reader::from_reader(text.as_bytes())
+        .deserialize()
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reference_best_published_ratio_is_at_seven_seconds() {
+        let ratio =
+            |duration| cost("optimal", duration).unwrap() / cost("nominal", duration).unwrap();
+        let best = DURATIONS_S
+            .iter()
+            .copied()
+            .min_by(|a, b| ratio(*a).total_cmp(&ratio(*b)));
+        assert_eq!(best, Some(7.0));
+        assert!((ratio(7.0) - 0.785).abs() < 5e-4, "21.5 % less");
+    }
+
+    #[test]
+    fn shipped_bins_are_whole_phases() {
+        let bins = torque_bins().unwrap();
+        assert_eq!(bins.len(), 2 * 6 * 10);
+        assert!(bins.chunks(10).all(|phase| phase[0].from_percent == 0.0
+            && phase[9].to_percent == 100.0
+            && phase.iter().all(|bin| bin.gait == phase[0].gait)));
+    }
+}

@@ -1,0 +1,377 @@
+//! The published torque study: closed-chain phases at several durations, simulated in parallel.
+
+use rayon::prelude::*;
+
+use prone::cost::{CostError, squared_torque_integral};
+use prone::gait::{CheckedTrajectory, Gait, PhaseDuration, PhaseDurationError, TrajectoryError};
+use prone::mapping::MappingVariant;
+use prone::robot::{JointAngles, Robot};
+use prone_sim::pull::{self, Pull, PullError};
+use prone_sim::{Snapshot, World};
+
+use crate::published;
+use crate::record::{
+    ChainRecord, ChainSample, ClampRecord, CostRecord, PullRecord, PullRow, RunRecord,
+};
+
+/// Duration that pictures and the contact story show, or the nearest that is studied, s.
+const SHOWCASE_S: f64 = 5.0;
+
+/// Instants at which pictures of a pull are taken.
+pub const PICTURES: usize = 5;
+
+/// Samples of a planned chain: 1 % of the phase apart.
+const CHAIN_INTERVALS: usize = 100;
+
+/// What to simulate.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    gaits: Vec<Gait>,
+    durations: Vec<PhaseDuration>,
+    showcase: PhaseDuration,
+}
+
+/// Why a study cannot be planned.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum PlanError {
+    /// Nothing to simulate.
+    #[error("a study needs at least one duration")]
+    NoDuration,
+    /// Not a phase.
+    #[error(transparent)]
+    Duration(#[from] PhaseDurationError),
+    /// Records are named by tenths of a second, and each is two control steps.
+    #[error(
+        "a duration of the study is a multiple of 0.1 s (two control steps); {seconds} s is not"
+    )]
+    NotTenths {
+        /// What was asked for.
+        seconds: f64,
+    },
+}
+
+/// Is told how a study goes, from many threads.
+pub trait Observer: Sync {
+    /// One more phase has been simulated.
+    fn phase_done(&self);
+    /// Whether to begin no further phase.
+    fn stop(&self) -> bool;
+}
+
+/// What came out.
+#[derive(Debug)]
+pub struct TorqueStudy {
+    /// Every gait at every duration.
+    pub pulls: Vec<PullRecord>,
+    /// What else was measured in each of [`TorqueStudy::pulls`].
+    pub runs: Vec<RunRecord>,
+    /// The planned chain of each gait.
+    pub chains: Vec<ChainRecord>,
+    /// Joints stopped at their limits, by gait.
+    pub clamps: Vec<ClampRecord>,
+    /// Costs in the order of the pulls.
+    pub costs: Vec<CostRecord>,
+    /// Costs of the same gaits under the mapping `exact`, at the showcase duration.
+    pub exact_costs: Vec<CostRecord>,
+    /// Positions of each gait at the showcase duration, for pictures.
+    pub snapshots: Vec<(String, Vec<Snapshot>)>,
+    /// The duration that pictures and the contact story show.
+    pub showcase_s: f64,
+    /// Engine steps done in all.
+    pub engine_steps: usize,
+}
+
+/// Why a study has no result.
+#[derive(Debug, thiserror::Error)]
+pub enum StudyError {
+    /// A phase could not be run.
+    #[error(transparent)]
+    Pull(#[from] PullError),
+    /// A gait has no trajectory.
+    #[error(transparent)]
+    Trajectory(#[from] TrajectoryError),
+    /// A record cannot be priced.
+    #[error("gait {gait} at {duration_s} s: {source}")]
+    Cost {
+        /// The gait's name.
+        gait: String,
+        /// Duration of the phase, s.
+        duration_s: f64,
+        /// What is wrong with the record.
+        source: CostError,
+    },
+    /// The user asked to stop.
+    #[error("stopped before the end; nothing was written")]
+    Stopped,
+}
+
+/// One phase to simulate.
+struct Job {
+    gait: Gait,
+    duration: PhaseDuration,
+    pictures: usize,
+    /// Whether it belongs to the study proper, not to the comparison of mappings.
+    proper: bool,
+}
+
+impl Plan {
+    /// Gaits in the order of the records, and durations in seconds; order and repetitions do not
+    /// matter.
+    ///
+    /// # Errors
+    /// [`PlanError`].
+    pub fn new(gaits: Vec<Gait>, durations_s: &[f64]) -> Result<Self, PlanError> {
+        let mut durations = Vec::new();
+        for &seconds in durations_s {
+            let duration = PhaseDuration::new(seconds)?;
+            let tenths = seconds * 10.0;
+            // 1e-6 of a tenth: decimal durations are not exact in binary.
+            if (tenths - tenths.round()).abs() > 1e-6 {
+                return Err(PlanError::NotTenths { seconds });
+            }
+            durations.push(duration);
+        }
+        durations.sort_by(|a, b| a.seconds().total_cmp(&b.seconds()));
+        durations.dedup();
+        // The longer of two that are as near.
+        let apart = |duration: &PhaseDuration| (duration.seconds() - SHOWCASE_S).abs();
+        let mut by_length = durations.iter().rev();
+        let first = *by_length.next().ok_or(PlanError::NoDuration)?;
+        let showcase = by_length.fold(first, |best, duration| {
+            if apart(duration) < apart(&best) {
+                *duration
+            } else {
+                best
+            }
+        });
+        Ok(Self {
+            gaits,
+            durations,
+            showcase,
+        })
+    }
+
+    /// How many phases are simulated: every gait at every duration, and once more with the other
+    /// mapping.
+    pub fn phases(&self) -> usize {
+        self.gaits.len() * (self.durations.len() + 1)
+    }
+
+    /// The gaits, in the order of the records.
+    pub fn gaits(&self) -> &[Gait] {
+        &self.gaits
+    }
+
+    /// Duration that pictures and the contact story show, s.
+    pub fn showcase_s(&self) -> f64 {
+        self.showcase.seconds()
+    }
+
+    /// Durations, ascending, s.
+    pub fn durations_s(&self) -> Vec<f64> {
+        self.durations
+            .iter()
+            .map(|duration| duration.seconds())
+            .collect()
+    }
+}
+
+/// Runs the study on the current rayon pool.
+///
+/// # Errors
+/// [`StudyError`].
+pub fn run(world: &World, plan: &Plan, observer: &dyn Observer) -> Result<TorqueStudy, StudyError> {
+    let showcase = plan.showcase;
+    let jobs = jobs(plan);
+    let results: Vec<Result<Pull, StudyError>> = jobs
+        .par_iter()
+        .with_max_len(1)
+        .map(|job| {
+            if observer.stop() {
+                return Err(StudyError::Stopped);
+            }
+            let pull = pull::run(world, &job.gait, job.duration, job.pictures)?;
+            observer.phase_done();
+            Ok(pull)
+        })
+        .collect();
+
+    let mut study = TorqueStudy {
+        pulls: Vec::new(),
+        runs: Vec::new(),
+        chains: Vec::new(),
+        clamps: Vec::new(),
+        costs: Vec::new(),
+        exact_costs: Vec::new(),
+        snapshots: Vec::new(),
+        showcase_s: showcase.seconds(),
+        engine_steps: 0,
+    };
+    for gait in &plan.gaits {
+        let trajectory = plan_chain(world, gait, showcase)?;
+        study.chains.push(chain_record(gait, &trajectory));
+        study
+            .clamps
+            .extend(clamp_records(world.robot(), gait, &trajectory));
+    }
+    for (job, result) in jobs.iter().zip(results) {
+        let pull = result?;
+        study.engine_steps += pull.engine_steps;
+        let record = pull_record(world.robot(), job, &pull);
+        let cost = cost_record(&record)?;
+        if job.proper {
+            study.costs.push(cost);
+            study.runs.push(run_record(job, &pull));
+            study.pulls.push(record);
+            if job.pictures > 0 {
+                study
+                    .snapshots
+                    .push((job.gait.name.clone(), pull.snapshots));
+            }
+        } else {
+            study.exact_costs.push(cost);
+        }
+    }
+    Ok(study)
+}
+
+fn jobs(plan: &Plan) -> Vec<Job> {
+    let mut jobs = Vec::new();
+    for gait in &plan.gaits {
+        for &duration in &plan.durations {
+            jobs.push(Job {
+                gait: gait.clone(),
+                duration,
+                pictures: if duration == plan.showcase {
+                    PICTURES
+                } else {
+                    0
+                },
+                proper: true,
+            });
+        }
+    }
+    for gait in &plan.gaits {
+        jobs.push(Job {
+            gait: Gait {
+                mapping: MappingVariant::Exact,
+                ..gait.clone()
+            },
+            duration: plan.showcase,
+            pictures: 0,
+            proper: false,
+        });
+    }
+    jobs
+}
+
+fn plan_chain(
+    world: &World,
+    gait: &Gait,
+    duration: PhaseDuration,
+) -> Result<CheckedTrajectory, TrajectoryError> {
+    CheckedTrajectory::plan(
+        world.robot(),
+        world.stops(),
+        gait,
+        duration,
+        CHAIN_INTERVALS,
+    )
+}
+
+fn chain_record(gait: &Gait, trajectory: &CheckedTrajectory) -> ChainRecord {
+    let samples = trajectory.samples().iter().map(|sample| {
+        let parameters = sample.chain.gait_parameters();
+        ChainSample {
+            s: sample.s,
+            parameters_deg: [parameters.knee, parameters.hip, parameters.upper_arm]
+                .map(f64::to_degrees),
+            points_mm: sample
+                .posture
+                .points()
+                .map(|point| (point.x() * 1e3, point.z() * 1e3)),
+        }
+    });
+    ChainRecord {
+        gait: gait.name.clone(),
+        samples: samples.collect(),
+    }
+}
+
+fn clamp_records<'a>(
+    robot: &'a Robot,
+    gait: &'a Gait,
+    trajectory: &'a CheckedTrajectory,
+) -> impl Iterator<Item = ClampRecord> + 'a {
+    trajectory.clamps().iter().map(|clamp| ClampRecord {
+        gait: gait.name.clone(),
+        joint: robot.joints[clamp.joint.0].name.clone(),
+        samples: clamp.samples,
+        of_samples: trajectory.samples().len(),
+        from_percent: clamp.from * 100.0,
+        to_percent: clamp.to * 100.0,
+        largest_deg: clamp.largest.to_degrees(),
+    })
+}
+
+fn pull_record(robot: &Robot, job: &Job, pull: &Pull) -> PullRecord {
+    let side = &robot.chain.right;
+    let pitch = side.pitch_joints();
+    let commanded = side.commanded_joints();
+    let pick = |angles: &JointAngles| commanded.map(|id| angles[id]);
+    let steps = pull.rows.len() as f64;
+    let rows = pull.rows.iter().enumerate().map(|(k, row)| PullRow {
+        time_s: row.time,
+        cycle_percent: 100.0 * (k + 1) as f64 / steps,
+        // The recordings report minus the motor torque about the joint's axis.
+        torque_nm: pitch.map(|id| -row.actuator_torque[id.0]),
+        command_rad: pick(&row.command),
+        angle_rad: pick(&row.angles),
+        contact_n: row.contact,
+        top_mm: row.top * 1e3,
+        head_top_mm: row.head_top * 1e3,
+    });
+    PullRecord {
+        gait: job.gait.name.clone(),
+        duration_s: job.duration.seconds(),
+        rows: rows.collect(),
+    }
+}
+
+fn run_record(job: &Job, pull: &Pull) -> RunRecord {
+    let end = pull
+        .rows
+        .last()
+        .map_or(pull.start, |row| row.ground_from_root);
+    let travel = end.origin().metres() - pull.start.origin().metres();
+    let tops = |top: fn(&prone_sim::pull::Row) -> f64| {
+        pull.rows.iter().map(top).fold(f64::NEG_INFINITY, f64::max) * 1e3
+    };
+    RunRecord {
+        gait: job.gait.name.clone(),
+        duration_s: job.duration.seconds(),
+        advance_mm: travel.x * 1e3,
+        lateral_mm: travel.y * 1e3,
+        top_mm: tops(|row| row.top),
+        head_top_mm: tops(|row| row.head_top),
+    }
+}
+
+fn cost_record(pull: &PullRecord) -> Result<CostRecord, StudyError> {
+    let (times, torques): (Vec<_>, Vec<_>) = pull
+        .rows
+        .iter()
+        .map(|row| (row.time_s, row.torque_nm))
+        .unzip();
+    let cost = squared_torque_integral(&times, &torques).map_err(|source| StudyError::Cost {
+        gait: pull.gait.clone(),
+        duration_s: pull.duration_s,
+        source,
+    })?;
+    Ok(CostRecord {
+        gait: pull.gait.clone(),
+        duration_s: pull.duration_s,
+        cost_n2m2s: cost,
+        published_n2m2s: published::cost(&pull.gait, pull.duration_s),
+    })
+}

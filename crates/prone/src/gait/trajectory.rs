@@ -1,0 +1,257 @@
+//! From a gait to joint angles that have been checked against a robot's limits.
+
+use super::{Gait, LimitsPolicy};
+use crate::chain::{ChainAngles, ChainPosture, ClosureError};
+use crate::mapping::{Mapping, MappingError};
+use crate::robot::{JointAngles, JointId, Range, Robot};
+
+/// How long one closed-chain phase lasts, s.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
+pub struct PhaseDuration(f64);
+
+/// A duration that no phase can have.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error(
+    "a phase of {seconds} s is outside {}..{} s",
+    PhaseDuration::SHORTEST,
+    PhaseDuration::LONGEST
+)]
+pub struct PhaseDurationError {
+    /// What was asked for.
+    pub seconds: f64,
+}
+
+impl PhaseDuration {
+    /// Shortest phase, s: two control steps of the original's simulator.
+    pub const SHORTEST: f64 = 0.1;
+    /// Longest phase, s: far beyond the ten seconds of the published study.
+    pub const LONGEST: f64 = 600.0;
+
+    /// A duration in seconds.
+    ///
+    /// # Errors
+    /// [`PhaseDurationError`] outside 0.1 to 600 s, and for NaN.
+    pub fn new(seconds: f64) -> Result<Self, PhaseDurationError> {
+        if (Self::SHORTEST..=Self::LONGEST).contains(&seconds) {
+            Ok(Self(seconds))
+        } else {
+            Err(PhaseDurationError { seconds })
+        }
+    }
+
+    /// In seconds.
+    pub const fn seconds(self) -> f64 {
+        self.0
+    }
+}
+
+/// One instant of a trajectory.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sample {
+    /// Phase, 0 to 1.
+    pub s: f64,
+    /// The closed chain before any clamp.
+    pub chain: ChainAngles,
+    /// Its joint centres.
+    pub posture: ChainPosture,
+    /// Joint angles within the stops.
+    pub joints: JointAngles,
+}
+
+/// A joint that a gait with [`LimitsPolicy::Clamp`] stopped at its limit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Clamp {
+    /// Which joint.
+    pub joint: JointId,
+    /// In how many samples.
+    pub samples: usize,
+    /// The largest amount cut off, rad, with the sign of the side it was cut on.
+    pub largest: f64,
+    /// Phase of the first clamped sample.
+    pub from: f64,
+    /// Phase of the last clamped sample.
+    pub to: f64,
+}
+
+/// A trajectory all of whose joint angles lie within the stops it was planned for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CheckedTrajectory {
+    duration: PhaseDuration,
+    samples: Vec<Sample>,
+    clamps: Vec<Clamp>,
+}
+
+/// Why a gait gives no trajectory.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum TrajectoryError {
+    /// The gait's mapping does not fit the robot.
+    #[error(transparent)]
+    Mapping(#[from] MappingError),
+    /// The chain does not close somewhere.
+    #[error("gait {gait}, sample {sample} (s = {s:.3}): {source}")]
+    Closure {
+        /// The gait's name.
+        gait: String,
+        /// The sample, from 0.
+        sample: usize,
+        /// Its phase.
+        s: f64,
+        /// What is out of reach.
+        source: ClosureError,
+    },
+    /// The forearm cannot be pointed somewhere.
+    #[error("gait {gait}, sample {sample} (s = {s:.3}): {source}")]
+    Forearm {
+        /// The gait's name.
+        gait: String,
+        /// The sample, from 0.
+        sample: usize,
+        /// Its phase.
+        s: f64,
+        /// What is out of reach.
+        source: MappingError,
+    },
+    /// A joint passes its limit and the gait's policy is to refuse.
+    #[error(
+        "gait {gait}: {joint} {angle:.4} rad is outside {lower:.4}..{upper:.4} at sample {sample} (s = {s:.3}), by {excess:.4} rad; \
+         `limits = \"clamp\"` in the gait file would stop it there"
+    )]
+    Limit {
+        /// The gait's name.
+        gait: String,
+        /// The joint's name.
+        joint: String,
+        /// What the gait asks for, rad.
+        angle: f64,
+        /// The lower stop, rad.
+        lower: f64,
+        /// The upper stop, rad.
+        upper: f64,
+        /// The sample, from 0.
+        sample: usize,
+        /// Its phase.
+        s: f64,
+        /// How far outside, rad.
+        excess: f64,
+    },
+}
+
+impl CheckedTrajectory {
+    /// Samples a gait at `intervals + 1` equally spaced phases and holds every joint against
+    /// `stops`, one per joint of the robot (at least one interval is taken).
+    ///
+    /// # Errors
+    /// [`TrajectoryError`], naming gait, sample, joint and amount.
+    pub fn plan(
+        robot: &Robot,
+        stops: &[Range],
+        gait: &Gait,
+        duration: PhaseDuration,
+        intervals: usize,
+    ) -> Result<Self, TrajectoryError> {
+        let mapping = Mapping::new(robot, gait.mapping, gait.arm)?;
+        let intervals = intervals.max(1);
+        let mut samples = Vec::with_capacity(intervals + 1);
+        let mut clamps: Vec<Clamp> = Vec::new();
+        for sample in 0..=intervals {
+            let s = sample as f64 / intervals as f64;
+            let closure = |source| TrajectoryError::Closure {
+                gait: gait.name.clone(),
+                sample,
+                s,
+                source,
+            };
+            let chain = mapping.chain().close(gait.parameters(s)).map_err(closure)?;
+            let mut joints =
+                mapping
+                    .joint_angles(robot, &chain)
+                    .map_err(|source| TrajectoryError::Forearm {
+                        gait: gait.name.clone(),
+                        sample,
+                        s,
+                        source,
+                    })?;
+            for (index, (joint, stop)) in robot.joints.iter().zip(stops).enumerate() {
+                let id = JointId(index);
+                let angle = joints[id];
+                if stop.contains(angle) {
+                    continue;
+                }
+                let excess = stop.excess(angle);
+                if gait.limits == LimitsPolicy::Refuse || excess.is_nan() {
+                    return Err(TrajectoryError::Limit {
+                        gait: gait.name.clone(),
+                        joint: joint.name.clone(),
+                        angle,
+                        lower: stop.lower,
+                        upper: stop.upper,
+                        sample,
+                        s,
+                        excess: excess.abs(),
+                    });
+                }
+                joints[id] = angle.clamp(stop.lower, stop.upper);
+                note(&mut clamps, id, excess, s);
+            }
+            samples.push(Sample {
+                s,
+                chain,
+                posture: mapping.chain().posture(&chain),
+                joints,
+            });
+        }
+        clamps.sort_by_key(|clamp| clamp.joint);
+        Ok(Self {
+            duration,
+            samples,
+            clamps,
+        })
+    }
+
+    /// How long the phase lasts.
+    pub const fn duration(&self) -> PhaseDuration {
+        self.duration
+    }
+
+    /// The samples, first at s = 0, last at s = 1.
+    pub fn samples(&self) -> &[Sample] {
+        &self.samples
+    }
+
+    /// What was clamped, by joint.
+    pub fn clamps(&self) -> &[Clamp] {
+        &self.clamps
+    }
+}
+
+fn note(clamps: &mut Vec<Clamp>, joint: JointId, excess: f64, s: f64) {
+    match clamps.iter_mut().find(|clamp| clamp.joint == joint) {
+        Some(clamp) => {
+            clamp.samples += 1;
+            clamp.to = s;
+            if excess.abs() > clamp.largest.abs() {
+                clamp.largest = excess;
+            }
+        }
+        None => clamps.push(Clamp {
+            joint,
+            samples: 1,
+            largest: excess,
+            from: s,
+            to: s,
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn durations_that_no_phase_can_have_are_refused() {
+        for seconds in [f64::NAN, -1.0, 0.0, 0.09, 601.0, f64::INFINITY] {
+            assert!(PhaseDuration::new(seconds).is_err(), "{seconds}");
+        }
+        assert!(PhaseDuration::new(5.0).is_ok());
+    }
+}

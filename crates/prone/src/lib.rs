@@ -1,0 +1,19 @@
+//! The mechanics of a low-profile crawl, and nothing else.
+//!
+//! Seen from the side, a prone humanoid with toes and elbows planted is a closed five-link
+//! chain. This crate holds that chain ([`chain`]), the curves that steer it ([`gait`]), the way
+//! from chain angles to a robot's joints ([`mapping`]), the robot as data ([`robot`]) and what a
+//! crawl costs ([`cost`]).
+//!
+//! It reads no file, no clock and no random number, and knows no particular robot: files are
+//! read by `prone-files`, the robot's shape comes from its MJCF through `prone-sim`.
+//!
+//! Inside: `f64`, SI units, radians. Frames are in the types ([`frames`]): a transform is named
+//! and typed `target_from_source`, so that neighbours cancel.
+
+pub mod chain;
+pub mod cost;
+pub mod frames;
+pub mod gait;
+pub mod mapping;
+pub mod robot;

@@ -1,0 +1,135 @@
+//! Identities of the mapping, on a made-up robot whose axes have mixed signs.
+
+use glam::{DQuat, DVec3};
+use proptest::prelude::*;
+
+use super::*;
+use crate::chain::GaitParameters;
+use crate::frames::{Ground, Root, Transform};
+use crate::robot::testing::two_armed;
+
+const VARIANTS: [MappingVariant; 2] = [MappingVariant::Exact, MappingVariant::Original];
+const ARMS: [ArmMode; 2] = [ArmMode::FlatForearm, ArmMode::Fixed];
+
+#[test]
+fn a_robot_without_published_chain_has_no_original_mapping() {
+    let mut robot = two_armed();
+    robot.chain.published = None;
+    let error = Mapping::new(&robot, MappingVariant::Original, ArmMode::FlatForearm);
+    assert!(matches!(error, Err(MappingError::NoPublishedChain { .. })));
+    robot.chain.fixed_arm = None;
+    let error = Mapping::new(&robot, MappingVariant::Exact, ArmMode::Fixed);
+    assert!(matches!(error, Err(MappingError::NoFixedArm { .. })));
+}
+
+#[test]
+fn a_chain_that_leaves_the_sagittal_plane_is_refused() {
+    let mut robot = two_armed();
+    let knee = robot.chain.left.knee;
+    robot.joints[knee.0].axis = DVec3::Z;
+    let error = Mapping::new(&robot, MappingVariant::Exact, ArmMode::Fixed).unwrap_err();
+    assert!(error.to_string().starts_with("knee turns about"), "{error}");
+}
+
+#[test]
+fn an_upper_arm_too_long_to_project_is_refused() {
+    let mut robot = two_armed();
+    robot.chain.projected_upper_arm = 0.2;
+    let error = Mapping::new(&robot, MappingVariant::Exact, ArmMode::Fixed).unwrap_err();
+    assert!(error.to_string().contains("200.00 mm"), "{error}");
+}
+
+/// The pose of the root over the ground: pitched, then shifted so that the toe is at the origin.
+fn grounded(
+    robot: &Robot,
+    mapping: &Mapping,
+    chain: &ChainAngles,
+    joints: &JointAngles,
+) -> Transform<Ground, Root> {
+    let turned = Transform::<Ground, Root>::new(
+        DQuat::from_rotation_y(mapping.root_pitch(chain)),
+        DVec3::ZERO,
+    );
+    let toe = robot
+        .forward_kinematics(turned, joints)
+        .point(robot.chain.left.toe);
+    Transform::new(turned.rotation(), DVec3::new(-toe.x(), 0.0, -toe.z()))
+}
+
+proptest! {
+    #[test]
+    fn mapping_round_trips(
+        knee in 0.0..0.6_f64, hip in -0.2..0.4_f64, upper_arm in -1.5..-0.6_f64,
+        variant in prop::sample::select(&VARIANTS[..]), arm in prop::sample::select(&ARMS[..]),
+    ) {
+        let robot = two_armed();
+        let mapping = Mapping::new(&robot, variant, arm).unwrap();
+        let chain = mapping.chain().close(GaitParameters { knee, hip, upper_arm }).unwrap();
+        let joints = mapping.joint_angles(&robot, &chain).unwrap();
+        let back = mapping.chain_angles(&robot, &joints);
+        for (a, b) in [
+            (chain.toe, back.toe), (chain.ankle, back.ankle), (chain.knee, back.knee),
+            (chain.hip, back.hip), (chain.shoulder, back.shoulder),
+        ] {
+            prop_assert!((a - b).abs() < 1e-9, "{chain:?} {back:?}");
+        }
+    }
+
+    /// The robot's own kinematics put toe, joints and elbow where the planar chain has them, on
+    /// both sides, and the forearm points along +x.
+    #[test]
+    fn exact_joints_put_the_robot_on_the_chain(
+        knee in 0.0..0.6_f64, hip in -0.2..0.4_f64, upper_arm in -1.5..-0.6_f64,
+    ) {
+        let robot = two_armed();
+        let mapping = Mapping::new(&robot, MappingVariant::Exact, ArmMode::FlatForearm).unwrap();
+        let chain = mapping.chain().close(GaitParameters { knee, hip, upper_arm }).unwrap();
+        let joints = mapping.joint_angles(&robot, &chain).unwrap();
+        let poses = robot.forward_kinematics(grounded(&robot, &mapping, &chain, &joints), &joints);
+        let planar = mapping.chain().posture(&chain);
+        for side in robot.chain.sides() {
+            let centre = |id: crate::robot::JointId| {
+                let joint = &robot.joints[id.0];
+                poses.point((joint.body, joint.anchor))
+            };
+            let ours = [
+                poses.point(side.toe), centre(side.ankle), centre(side.knee), centre(side.hip),
+                centre(side.shoulder), poses.point(side.elbow),
+            ];
+            for (point, wanted) in ours.iter().zip(planar.points()) {
+                prop_assert!((point.x() - wanted.x()).abs() < 1e-9, "{point:?} {wanted:?}");
+                prop_assert!((point.z() - wanted.z()).abs() < 1e-9, "{point:?} {wanted:?}");
+            }
+            let forearm = robot.joints[side.forearm[1].0].body;
+            let forward = poses.of(forearm).rotate(side.forearm_direction);
+            prop_assert!((forward - DVec3::X).length() < 1e-9, "{forward}");
+        }
+    }
+
+    /// Mirrored bodies: every point of the right limbs is the left's with y negated.
+    #[test]
+    fn left_mirrors_right(
+        knee in 0.0..0.6_f64, upper_arm in -1.5..-0.6_f64,
+        variant in prop::sample::select(&VARIANTS[..]), arm in prop::sample::select(&ARMS[..]),
+    ) {
+        let robot = two_armed();
+        let mapping = Mapping::new(&robot, variant, arm).unwrap();
+        let chain = mapping.chain().close(GaitParameters { knee, hip: 0.1, upper_arm }).unwrap();
+        let joints = mapping.joint_angles(&robot, &chain).unwrap();
+        let poses = robot.forward_kinematics(
+            Transform::<Root, Root>::translation(DVec3::ZERO), &joints,
+        );
+        let [left, right] = robot.chain.sides();
+        let tips = |side: &crate::robot::SideLayout| {
+            let forearm = robot.joints[side.forearm[1].0].body;
+            [
+                poses.point(side.toe).metres(),
+                poses.point(side.elbow).metres(),
+                poses.of(forearm).rotate(side.forearm_direction),
+            ]
+        };
+        for (l, r) in tips(left).into_iter().zip(tips(right)) {
+            prop_assert!((l * DVec3::new(1.0, -1.0, 1.0) - r).length() < 1e-9, "{l} {r}");
+        }
+    }
+}

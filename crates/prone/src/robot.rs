@@ -1,0 +1,354 @@
+//! A robot as data: bodies, joints, shapes, and which of them form the crawling chain.
+//!
+//! Nothing here knows a particular robot. `prone-sim` fills [`Robot`] from an MJCF model and a
+//! `robot.toml`. The value is immutable once loaded; algorithms are functions over `&Robot`.
+
+mod kinematics;
+mod shape;
+#[cfg(test)]
+pub(crate) mod testing;
+
+pub use kinematics::BodyPoses;
+pub use shape::{Shape, Solid};
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::ops::{Index, IndexMut};
+
+use glam::DVec3;
+
+use crate::frames::{Link, Point, Root, Transform};
+
+/// Index of a body in [`Robot::bodies`]; parents come before their children, 0 is the root.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct BodyId(pub usize);
+
+/// Index of a joint in [`Robot::joints`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct JointId(pub usize);
+
+/// A humanoid as the crawl needs it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Robot {
+    /// The maker's name of the model.
+    pub name: String,
+    /// Parents before children; the first one floats freely.
+    pub bodies: Vec<Body>,
+    /// Hinges in the model's order.
+    pub joints: Vec<Joint>,
+    /// Primitives that collide.
+    pub shapes: Vec<Shape>,
+    /// What makes the sagittal chain.
+    pub chain: ChainLayout,
+    /// Named postures, every joint listed (0 where the file is silent).
+    pub postures: BTreeMap<String, JointAngles>,
+    /// How the torque study treats this robot.
+    pub study: StudySetup,
+}
+
+/// One rigid body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Body {
+    /// Name in the model.
+    pub name: String,
+    /// `None` for the root.
+    pub parent: Option<BodyId>,
+    /// Pose in the parent with all joints at zero; the identity for the root.
+    pub parent_from_body: Transform<Link, Link>,
+    /// The hinge that moves the body in its parent.
+    pub joint: Option<JointId>,
+    /// kg.
+    pub mass: f64,
+    /// Centre of mass in the body's own frame.
+    pub centre_of_mass: Point<Link>,
+    /// Which row of a record its contacts count for.
+    pub contact_group: ContactGroup,
+    /// Whether it belongs to the head, whose height is recorded apart.
+    pub is_head: bool,
+}
+
+/// One hinge.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Joint {
+    /// The maker's name.
+    pub name: String,
+    /// The body it moves.
+    pub body: BodyId,
+    /// Unit axis in the moved body's frame.
+    pub axis: DVec3,
+    /// A point of the axis in the moved body's frame.
+    pub anchor: Point<Link>,
+    /// The maker's limits, rad.
+    pub range: Range,
+    /// The maker's effort limit, N·m.
+    pub effort_limit: f64,
+    /// The maker's speed limit, rad/s.
+    pub speed_limit: f64,
+    /// Velocity gain of the simulated servo, N·m·s/rad.
+    pub servo_gain: f64,
+    /// The motor behind the joint, where its figures are known.
+    pub motor: Option<Motor>,
+}
+
+/// A geared motor, at the joint, before gear losses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Motor {
+    /// Motor turns per joint turn.
+    pub ratio: f64,
+    /// Continuous torque, N·m.
+    pub nominal: f64,
+    /// Stall torque, N·m.
+    pub stall: f64,
+}
+
+/// A closed interval of joint angles, rad.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Range {
+    /// Smallest allowed angle.
+    pub lower: f64,
+    /// Largest allowed angle.
+    pub upper: f64,
+}
+
+/// Parts of the body whose ground contact is recorded together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum ContactGroup {
+    /// Feet: the rear support of the chain.
+    Toe,
+    /// Forearms and hands: the front support.
+    Elbow,
+    /// Trunk, pelvis and head.
+    Torso,
+    /// Thighs and shins.
+    Leg,
+}
+
+impl ContactGroup {
+    /// All groups, in the order of a record's columns.
+    pub const ALL: [Self; 4] = [Self::Toe, Self::Elbow, Self::Torso, Self::Leg];
+
+    /// Lower-case name, as in `robot.toml` and the record's columns.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Toe => "toe",
+            Self::Elbow => "elbow",
+            Self::Torso => "torso",
+            Self::Leg => "leg",
+        }
+    }
+}
+
+impl fmt::Display for ContactGroup {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// What makes the sagittal chain of a robot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ChainLayout {
+    /// The left limbs.
+    pub left: SideLayout,
+    /// The right limbs.
+    pub right: SideLayout,
+    /// `d_e` of the chain derived from the model, metres.
+    pub span: f64,
+    /// l5 that the derived chain asks for; the shoulder roll is solved for it, metres.
+    pub projected_upper_arm: f64,
+    /// A chain printed in a publication, where there is one.
+    pub published: Option<PublishedChain>,
+    /// Arm joints of the fixed-arm mode, left side, rad (the right side mirrors).
+    pub fixed_arm: Option<FixedArm>,
+}
+
+/// The joints and points of one side's chain, toe to elbow.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SideLayout {
+    /// Where the foot touches the ground on its toes: a body and a point in it.
+    pub toe: (BodyId, Point<Link>),
+    /// Ankle pitch.
+    pub ankle: JointId,
+    /// Knee pitch.
+    pub knee: JointId,
+    /// Hip pitch.
+    pub hip: JointId,
+    /// Shoulder pitch.
+    pub shoulder: JointId,
+    /// Spreads the upper arm outwards.
+    pub shoulder_roll: JointId,
+    /// The elbow's centre: a body and a point in it.
+    pub elbow: (BodyId, Point<Link>),
+    /// Two hinges that point the forearm, upper one first.
+    pub forearm: [JointId; 2],
+    /// Unit vector along the forearm, in the frame of the body that the second one moves.
+    pub forearm_direction: DVec3,
+}
+
+/// A chain as a publication prints it, with the offsets that its mapping used.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PublishedChain {
+    /// Link lengths and span.
+    pub chain: crate::chain::ClosedChain,
+    /// Ankle joint angle minus θ2, rad.
+    pub ankle_offset: f64,
+    /// Outward shoulder roll, rad.
+    pub shoulder_roll: f64,
+}
+
+/// Arm joints that stay where they are during the pull, left side, rad.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FixedArm {
+    /// Shoulder roll.
+    pub shoulder_roll: f64,
+    /// The two forearm hinges.
+    pub forearm: [f64; 2],
+}
+
+/// How the torque study treats a robot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StudySetup {
+    /// Name in [`Robot::postures`] of the pose before the first command.
+    pub start_posture: String,
+    /// Stops moved for the study, so that sag does not press a joint into them.
+    pub stops: Vec<(JointId, Range)>,
+}
+
+/// One angle for each of a robot's joints, rad, in the order of [`Robot::joints`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct JointAngles(Vec<f64>);
+
+impl JointAngles {
+    /// All joints at zero.
+    pub fn zero(robot: &Robot) -> Self {
+        Self(vec![0.0; robot.joints.len()])
+    }
+
+    /// Angles in the order of [`Robot::joints`], rad.
+    pub fn from_vec(radians: Vec<f64>) -> Self {
+        Self(radians)
+    }
+
+    /// The angles, rad.
+    pub fn as_slice(&self) -> &[f64] {
+        &self.0
+    }
+}
+
+impl Index<JointId> for JointAngles {
+    type Output = f64;
+
+    fn index(&self, joint: JointId) -> &f64 {
+        &self.0[joint.0]
+    }
+}
+
+impl IndexMut<JointId> for JointAngles {
+    fn index_mut(&mut self, joint: JointId) -> &mut f64 {
+        &mut self.0[joint.0]
+    }
+}
+
+impl Range {
+    /// How far `angle` lies outside, rad: positive above, negative below, 0 inside, NaN for NaN.
+    pub fn excess(&self, angle: f64) -> f64 {
+        if angle > self.upper {
+            angle - self.upper
+        } else if angle < self.lower {
+            angle - self.lower
+        } else {
+            // NaN stays NaN.
+            angle * 0.0
+        }
+    }
+
+    /// Whether `angle` lies inside; NaN does not.
+    pub fn contains(&self, angle: f64) -> bool {
+        (self.lower..=self.upper).contains(&angle)
+    }
+}
+
+impl Robot {
+    /// The joint of that name.
+    pub fn joint(&self, name: &str) -> Option<JointId> {
+        self.joints.iter().position(|j| j.name == name).map(JointId)
+    }
+
+    /// The body of that name.
+    pub fn body(&self, name: &str) -> Option<BodyId> {
+        self.bodies.iter().position(|b| b.name == name).map(BodyId)
+    }
+
+    /// Total mass, kg.
+    pub fn mass(&self) -> f64 {
+        self.bodies.iter().map(|body| body.mass).sum()
+    }
+
+    /// The joints' limits as the maker gives them.
+    pub fn stops(&self) -> Vec<Range> {
+        self.joints.iter().map(|joint| joint.range).collect()
+    }
+
+    /// The joints' limits with the study's stops moved.
+    pub fn study_stops(&self) -> Vec<Range> {
+        let mut stops = self.stops();
+        for (joint, range) in &self.study.stops {
+            stops[joint.0] = *range;
+        }
+        stops
+    }
+}
+
+impl ChainLayout {
+    /// Left, then right.
+    pub const fn sides(&self) -> [&SideLayout; 2] {
+        [&self.left, &self.right]
+    }
+}
+
+impl SideLayout {
+    /// Ankle, knee, hip and shoulder pitch: the joints whose torque the study records.
+    pub const fn pitch_joints(&self) -> [JointId; 4] {
+        [self.ankle, self.knee, self.hip, self.shoulder]
+    }
+
+    /// The joints that a gait commands, the pitch joints first.
+    pub const fn commanded_joints(&self) -> [JointId; 7] {
+        [
+            self.ankle,
+            self.knee,
+            self.hip,
+            self.shoulder,
+            self.shoulder_roll,
+            self.forearm[0],
+            self.forearm[1],
+        ]
+    }
+}
+
+impl Robot {
+    /// Pose of a body in the root with all joints at zero.
+    pub(crate) fn zero_pose(&self) -> BodyPoses<Root> {
+        self.forward_kinematics(
+            Transform::translation(DVec3::ZERO),
+            &JointAngles::zero(self),
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn excess_has_the_sign_of_the_side_and_keeps_nan() {
+        let range = Range {
+            lower: -1.0,
+            upper: 2.0,
+        };
+        assert!(range.excess(0.5).abs() < f64::EPSILON);
+        assert!((range.excess(2.5) - 0.5).abs() < 1e-15);
+        assert!((range.excess(-1.25) + 0.25).abs() < 1e-15);
+        assert!(range.excess(f64::NAN).is_nan());
+        assert!(!range.contains(f64::NAN));
+    }
+}
