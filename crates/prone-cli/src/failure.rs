@@ -3,6 +3,9 @@
 use std::process::ExitCode;
 
 /// Why a command did not do what was asked.
+///
+/// The messages of this project's errors are complete in themselves, causes included, so only the
+/// outermost is printed.
 #[derive(Debug)]
 pub(crate) enum Failure {
     /// What was typed or read is wrong: exit code 2, nothing was written.
@@ -30,11 +33,11 @@ impl Failure {
     pub(crate) fn report(self) -> ExitCode {
         match self {
             Self::Input(error) => {
-                eprintln!("error: {error:#}");
+                eprintln!("error: {error}");
                 ExitCode::from(2)
             }
             Self::Work(error) => {
-                eprintln!("error: {error:#}");
+                eprintln!("error: {error}");
                 ExitCode::from(1)
             }
             Self::Stopped => {
@@ -52,7 +55,7 @@ impl From<std::io::Error> for Failure {
         if error.kind() == std::io::ErrorKind::BrokenPipe {
             Self::OutputClosed
         } else {
-            Self::work(anyhow::Error::new(error).context("cannot write to standard output"))
+            Self::Work(anyhow::anyhow!("cannot write to standard output: {error}"))
         }
     }
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::io::Write as _;
 use std::path::Path;
 
-use anyhow::Context as _;
+use anyhow::anyhow;
 
 use prone::gait::{Gait, PhaseDuration};
 use prone_files::{gait_file, shipped};
@@ -24,14 +24,13 @@ pub(crate) fn find(name: &str) -> Result<Gait, Failure> {
     let path = Path::new(name);
     if !path.exists() {
         let known: Vec<_> = shipped::gait_names().collect();
-        return Err(Failure::Input(anyhow::anyhow!(
+        return Err(Failure::Input(anyhow!(
             "there is no gait {name:?}: it is neither one that ships with prone ({}) nor a file",
             known.join(", ")
         )));
     }
     let text = fs::read_to_string(path)
-        .with_context(|| format!("cannot read {name}"))
-        .map_err(Failure::Input)?;
+        .map_err(|error| Failure::Input(anyhow!("cannot read {name}: {error}")))?;
     gait_file::parse(name, &text).map_err(Failure::input)
 }
 
@@ -43,8 +42,7 @@ pub(crate) fn show(args: &GaitShowArgs) -> Result<(), Failure> {
     if let Some(path) = &args.csv {
         let table = sheet.csv().map_err(Failure::work)?;
         fs::write(path, table)
-            .with_context(|| format!("cannot write {}", path.display()))
-            .map_err(Failure::Input)?;
+            .map_err(|error| Failure::Input(anyhow!("cannot write {}: {error}", path.display())))?;
     }
     let mut out = std::io::stdout().lock();
     if args.json {
@@ -115,13 +113,13 @@ fn print(sheet: &GaitSheet, out: &mut impl std::io::Write) -> std::io::Result<()
     )?;
     writeln!(
         out,
-        "  lowest point of the body              {:>7.1} mm",
-        sheet.bottom_mm
+        "  lowest point of trunk and legs        {:>7.1} mm",
+        sheet.body_bottom_mm
     )?;
-    if sheet.bottom_mm < 0.0 {
+    if sheet.body_bottom_mm < 0.0 {
         writeln!(
             out,
-            "    below the floor: there the real body rests on it and cannot follow the chain"
+            "    below the floor: there the body rests on it and cannot follow the chain"
         )?;
     }
     writeln!(

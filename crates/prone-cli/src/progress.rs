@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use anyhow::Context as _;
+use anyhow::anyhow;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use prone_study::torque_study::Observer;
@@ -26,13 +26,11 @@ impl Progress {
                 std::process::exit(130);
             }
         })
-        .context("cannot listen for Ctrl-C")
-        .map_err(Failure::Work)?;
+        .map_err(|error| Failure::Work(anyhow!("cannot listen for Ctrl-C: {error}")))?;
         // indicatif draws on standard error, and only if that is a terminal.
         let bar = ProgressBar::new(phases as u64);
         let style = ProgressStyle::with_template("{msg:<12} {bar:30} {pos}/{len}  {elapsed}")
-            .context("progress bar")
-            .map_err(Failure::Work)?;
+            .map_err(Failure::work)?;
         bar.set_style(style);
         bar.set_message("simulating");
         bar.tick();

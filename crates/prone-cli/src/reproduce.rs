@@ -3,7 +3,7 @@
 use std::io::Write as _;
 use std::time::Instant;
 
-use anyhow::Context as _;
+use anyhow::anyhow;
 use serde_json::json;
 
 use prone_study::output::{self, OutputError};
@@ -27,8 +27,7 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<(), Failure> {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(args.threads.map_or(0, usize::from))
         .build()
-        .context("cannot start worker threads")
-        .map_err(Failure::Work)?;
+        .map_err(|error| Failure::Work(anyhow!("cannot start worker threads: {error}")))?;
     let program = Program {
         version: env!("CARGO_PKG_VERSION"),
         commit: env!("PRONE_COMMIT"),

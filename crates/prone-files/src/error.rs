@@ -33,7 +33,7 @@ impl Source<'_> {
     }
 
     /// An error at a byte range of the text.
-    pub(crate) fn error(self, span: Range<usize>, message: impl ToString) -> FileError {
+    pub(crate) fn error(self, span: Range<usize>, message: impl std::fmt::Display) -> FileError {
         let (line, column) = line_and_column(self.text, span.start);
         FileError {
             file: self.file.to_owned(),

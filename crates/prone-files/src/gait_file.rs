@@ -42,10 +42,9 @@ pub fn parse(file: &str, text: &str) -> Result<Gait, FileError> {
             format!("a gait's name is made of letters, digits, - and _ (it becomes part of file names), not {name:?}"),
         ));
     }
-    let curve = |curve: Spanned<CurveFile>| {
+    let curve = |curve: CurveFile| {
         let span = curve.span();
         curve
-            .into_inner()
             .into_curve()
             .map_err(|error| source.error(span, error))
     };
@@ -73,9 +72,9 @@ struct GaitFile {
     arm: ArmName,
     #[serde(default)]
     limits: LimitsName,
-    knee: Spanned<CurveFile>,
-    hip: Spanned<CurveFile>,
-    upper_arm: Spanned<CurveFile>,
+    knee: CurveFile,
+    hip: CurveFile,
+    upper_arm: CurveFile,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -105,16 +104,16 @@ enum LimitsName {
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum CurveFile {
-    ConstantDeg(f64),
-    ConstantRad(f64),
-    LinearDeg([f64; 2]),
-    LinearRad([f64; 2]),
-    PolynomialDeg(Vec<f64>),
-    PolynomialRad(Vec<f64>),
-    ThroughDeg(Vec<(f64, f64)>),
-    ThroughRad(Vec<(f64, f64)>),
-    BSplineDeg(BSplineFile),
-    BSplineRad(BSplineFile),
+    ConstantDeg(Spanned<f64>),
+    ConstantRad(Spanned<f64>),
+    LinearDeg(Spanned<[f64; 2]>),
+    LinearRad(Spanned<[f64; 2]>),
+    PolynomialDeg(Spanned<Vec<f64>>),
+    PolynomialRad(Spanned<Vec<f64>>),
+    ThroughDeg(Spanned<Vec<(f64, f64)>>),
+    ThroughRad(Spanned<Vec<(f64, f64)>>),
+    BSplineDeg(Spanned<BSplineFile>),
+    BSplineRad(Spanned<BSplineFile>),
 }
 
 #[derive(Debug, Deserialize)]
@@ -125,22 +124,45 @@ struct BSplineFile {
 }
 
 impl CurveFile {
+    /// Where the numbers stand in the file.
+    fn span(&self) -> std::ops::Range<usize> {
+        match self {
+            Self::ConstantDeg(value) | Self::ConstantRad(value) => value.span(),
+            Self::LinearDeg(ends) | Self::LinearRad(ends) => ends.span(),
+            Self::PolynomialDeg(numbers) | Self::PolynomialRad(numbers) => numbers.span(),
+            Self::ThroughDeg(points) | Self::ThroughRad(points) => points.span(),
+            Self::BSplineDeg(spline) | Self::BSplineRad(spline) => spline.span(),
+        }
+    }
+
     fn into_curve(self) -> Result<Curve, CurveError> {
         let radians = |degrees: Vec<f64>| degrees.into_iter().map(f64::to_radians).collect();
         match self {
-            Self::ConstantDeg(value) => Curve::constant(value.to_radians()),
-            Self::ConstantRad(value) => Curve::constant(value),
-            Self::LinearDeg([from, to]) => Curve::linear(from.to_radians(), to.to_radians()),
-            Self::LinearRad([from, to]) => Curve::linear(from, to),
-            Self::PolynomialDeg(coefficients) => Curve::polynomial(radians(coefficients)),
-            Self::PolynomialRad(coefficients) => Curve::polynomial(coefficients),
-            Self::ThroughDeg(points) => {
-                let points = points.into_iter().map(|(s, value)| (s, value.to_radians()));
-                Curve::through(points.collect())
+            Self::ConstantDeg(value) => Curve::constant(value.into_inner().to_radians()),
+            Self::ConstantRad(value) => Curve::constant(value.into_inner()),
+            Self::LinearDeg(ends) => {
+                let [from, to] = ends.into_inner().map(f64::to_radians);
+                Curve::linear(from, to)
             }
-            Self::ThroughRad(points) => Curve::through(points),
-            Self::BSplineDeg(spline) => Curve::b_spline(spline.degree, radians(spline.control)),
-            Self::BSplineRad(spline) => Curve::b_spline(spline.degree, spline.control),
+            Self::LinearRad(ends) => {
+                let [from, to] = ends.into_inner();
+                Curve::linear(from, to)
+            }
+            Self::PolynomialDeg(numbers) => Curve::polynomial(radians(numbers.into_inner())),
+            Self::PolynomialRad(numbers) => Curve::polynomial(numbers.into_inner()),
+            Self::ThroughDeg(points) => {
+                let points = points.into_inner().into_iter();
+                Curve::through(points.map(|(s, value)| (s, value.to_radians())).collect())
+            }
+            Self::ThroughRad(points) => Curve::through(points.into_inner()),
+            Self::BSplineDeg(spline) => {
+                let BSplineFile { degree, control } = spline.into_inner();
+                Curve::b_spline(degree, radians(control))
+            }
+            Self::BSplineRad(spline) => {
+                let BSplineFile { degree, control } = spline.into_inner();
+                Curve::b_spline(degree, control)
+            }
         }
     }
 }

@@ -74,7 +74,7 @@ impl<'w> Simulation<'w> {
             Transform::<Ground, Root>::new(turn, DVec3::ZERO),
             &JointAngles::from_vec(angles.clone()),
         );
-        let height = -robot.bottom(&poses);
+        let height = -robot.bottom(&poses, |_| true);
         let qpos = data.qpos_mut();
         qpos[..FREE_JOINT].copy_from_slice(&[0.0, 0.0, height, turn.w, turn.x, turn.y, turn.z]);
         qpos[FREE_JOINT..].copy_from_slice(&angles);
@@ -118,11 +118,10 @@ impl<'w> Simulation<'w> {
             self.add_contacts(&mut means.contact);
         }
         let steps = STEPS_PER_CONTROL as f64;
-        means
-            .actuator_torque
-            .iter_mut()
-            .for_each(|sum| *sum /= steps);
-        means.contact.iter_mut().for_each(|sum| *sum /= steps);
+        let sums = means.actuator_torque.iter_mut().chain(&mut means.contact);
+        for sum in sums {
+            *sum /= steps;
+        }
         self.check()?;
         Ok(means)
     }
@@ -179,6 +178,11 @@ impl<'w> Simulation<'w> {
     /// The position now, for [`crate::camera`].
     pub fn snapshot(&self) -> Snapshot {
         Snapshot(self.data.qpos().to_vec())
+    }
+
+    /// The engine's own data, to go on without this crate's servos and records.
+    pub fn into_engine_data(self) -> MjData<Arc<MjModel>> {
+        self.data
     }
 
     /// Engine steps done so far.

@@ -74,7 +74,9 @@ fn mean_torques(pull: &PullRecord) -> [[f64; 4]; BINS] {
         }
     }
     for (sum, count) in sums.iter_mut().zip(counts) {
-        sum.iter_mut().for_each(|sum| *sum /= count);
+        for sum in sum {
+            *sum /= count;
+        }
     }
     sums
 }

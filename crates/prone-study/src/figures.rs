@@ -16,7 +16,7 @@ mod cost;
 mod font;
 mod panel;
 mod parameters;
-mod raster;
+pub(crate) mod raster;
 mod selection;
 mod sheet;
 mod style;
@@ -57,7 +57,7 @@ pub enum FigureError {
         value: f64,
     },
     /// The drawing is not valid SVG.
-    #[error("the drawing cannot be read back")]
+    #[error("the drawing cannot be read back: {0}")]
     Parse(#[from] resvg::usvg::Error),
     /// The picture would have no pixels, or far too many.
     #[error("scale {scale} gives no picture of usable size")]

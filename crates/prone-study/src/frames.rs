@@ -5,17 +5,18 @@ use base64::engine::general_purpose::STANDARD as BASE64;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use prone_sim::camera::{self, Camera, Picture, PictureError};
+use prone_sim::camera::{self, Camera, Picture};
 use prone_sim::{Snapshot, World};
 
-use crate::figures::Figure;
+use crate::figures::{Figure, raster};
+use crate::reproduce::ReproduceError;
 
 /// Size of one frame, pixels.
 const FRAME: (usize, usize) = (800, 300);
 
 /// Vertical field of view that shows a lying robot and the length of its stride in a frame of
 /// that shape, rad.
-const FIELD_OF_VIEW: f64 = 0.38;
+const FIELD_OF_VIEW: f64 = 0.155;
 
 /// Height of the point that the camera looks at, m: half that of a lying robot.
 const MIDDLE: f64 = 0.08;
@@ -32,7 +33,7 @@ pub(crate) fn of(
     gait: &str,
     duration_s: f64,
     snapshots: &[Snapshot],
-) -> Result<Frames, PictureError> {
+) -> Result<Frames, ReproduceError> {
     let middle = snapshots
         .get(snapshots.len() / 2)
         .map_or(DVec3::ZERO, |snapshot| {
@@ -47,12 +48,15 @@ pub(crate) fn of(
         .par_iter()
         .map(|snapshot| camera::ray_cast(&mut world.at(snapshot), &camera, FRAME))
         .collect();
-    let png = stack(&pictures).png()?;
+    let stack = stack(&pictures);
     let number = if gait == "optimal" { "35" } else { "27" };
     let percents: Vec<String> = (0..snapshots.len())
         .map(|index| format!("{} %", index * 100 / (snapshots.len() - 1).max(1)))
         .collect();
     let instants = percents.join(", ");
+    let size = (stack.width, stack.height);
+    let labels = labels(&percents);
+    let bare = stack.png()?;
     Ok(Frames {
         figure: Figure {
             stem: format!("fig-{number}-{gait}-frames"),
@@ -67,12 +71,13 @@ pub(crate) fn of(
                 "Five pictures of the simulated robot lying on its belly, then carried forward \
                  on toes and forearms, at {instants} of the pull."
             ),
-            svg: svg(&png, &percents),
+            svg: svg(size, &picture_element(size, &bare), &labels),
         },
-        png,
+        png: raster::png_over(&svg(size, "", &labels), size, &stack.rgb)?,
     })
 }
 
+/// The pictures one below the other.
 fn stack(pictures: &[Picture]) -> Picture {
     Picture {
         width: FRAME.0,
@@ -84,22 +89,25 @@ fn stack(pictures: &[Picture]) -> Picture {
     }
 }
 
-/// The pictures with their instants written beside them.
-fn svg(png: &[u8], percents: &[String]) -> String {
-    let (width, frame_height) = FRAME;
-    let height = frame_height * percents.len();
-    let labels: String = percents
-        .iter()
-        .enumerate()
-        .map(|(index, percent)| {
-            let baseline = index * frame_height + 30;
-            format!(
-                r##"<text x="14" y="{baseline}" font-family="sans-serif" font-size="20" fill="#222">{percent}</text>"##
-            )
-        })
-        .collect();
+/// The instant of each frame, in its corner.
+fn labels(percents: &[String]) -> Vec<String> {
+    let labels = percents.iter().enumerate().map(|(index, percent)| {
+        let baseline = index * FRAME.1 + 32;
+        format!(
+            r##"<text x="14" y="{baseline}" font-family="DejaVu Sans, Verdana, sans-serif" font-size="20" fill="#222">{percent}</text>"##
+        )
+    });
+    labels.collect()
+}
+
+fn picture_element((width, height): (usize, usize), png: &[u8]) -> String {
+    let data = BASE64.encode(png);
+    format!(r#"<image width="{width}" height="{height}" href="data:image/png;base64,{data}"/>"#)
+}
+
+fn svg((width, height): (usize, usize), picture: &str, labels: &[String]) -> String {
     format!(
-        r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}"><image width="{width}" height="{height}" href="data:image/png;base64,{}"/>{labels}</svg>"#,
-        BASE64.encode(png)
+        r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}">{picture}{}</svg>"#,
+        labels.concat()
     )
 }

@@ -6,7 +6,7 @@ use serde::Serialize;
 use prone::frames::{Ground, Root, Transform};
 use prone::gait::{CheckedTrajectory, Gait, PhaseDuration, Sample, TrajectoryError};
 use prone::mapping::Mapping;
-use prone::robot::{JointId, Robot};
+use prone::robot::{ContactGroup, JointId, Robot, Shape};
 
 /// Samples of a sheet: 1 % of the phase apart.
 const INTERVALS: usize = 100;
@@ -38,9 +38,9 @@ pub struct GaitSheet {
     pub stride_mm: f64,
     /// Highest point of any shape over the phase, mm, with toe and elbow on the chain.
     pub top_mm: f64,
-    /// Lowest point of any shape over the phase, mm; below zero the real body rests on the floor
-    /// there and cannot hold the planned chain.
-    pub bottom_mm: f64,
+    /// Lowest point of trunk, head and legs over the phase, mm; below zero the real body rests on
+    /// the floor there and cannot hold the planned chain.
+    pub body_bottom_mm: f64,
     /// Largest speed asked of any joint, and of which, rad/s.
     pub fastest: (String, f64),
 }
@@ -58,10 +58,10 @@ pub struct SheetRow {
     pub joints_rad: Vec<f64>,
     /// Heights of ankle, knee, hip and shoulder centres, mm.
     pub centres_mm: [f64; 4],
-    /// Highest and lowest point of any shape, mm.
+    /// Highest point of any shape, mm.
     pub top_mm: f64,
-    /// See `top_mm`.
-    pub bottom_mm: f64,
+    /// Lowest point of trunk, head and legs, mm.
+    pub body_bottom_mm: f64,
 }
 
 /// A joint stopped at its limit.
@@ -122,7 +122,7 @@ pub fn of(
         ankle_peak_mm: highest(|row| row.centres_mm[0]),
         stride_mm: shoulder_x(samples.last()) - shoulder_x(samples.first()),
         top_mm: highest(|row| row.top_mm),
-        bottom_mm: -highest(|row| -row.bottom_mm),
+        body_bottom_mm: -highest(|row| -row.body_bottom_mm),
         fastest: fastest(robot, &ids, &rows),
         rows,
     })
@@ -145,6 +145,11 @@ fn row(
     let standing = Transform::<Ground, Root>::new(turn, DVec3::new(-toe.x(), 0.0, -toe.z()));
     let poses = robot.forward_kinematics(standing, &sample.joints);
     let posture = &sample.posture;
+    // What toes and elbows are to keep off the floor.
+    let is_carried = |shape: &Shape| {
+        let group = robot.bodies[shape.body.0].contact_group;
+        matches!(group, ContactGroup::Torso | ContactGroup::Leg)
+    };
     SheetRow {
         cycle_percent: sample.s * 100.0,
         time_s: sample.s * duration.seconds(),
@@ -160,7 +165,7 @@ fn row(
         centres_mm: [posture.ankle, posture.knee, posture.hip, posture.shoulder]
             .map(|centre| centre.z() * 1e3),
         top_mm: robot.top(&poses, |_| true) * 1e3,
-        bottom_mm: robot.bottom(&poses) * 1e3,
+        body_bottom_mm: robot.bottom(&poses, is_carried) * 1e3,
     }
 }
 
@@ -202,7 +207,7 @@ impl GaitSheet {
         );
         header.extend(self.joints.iter().map(|joint| format!("{joint}_rad")));
         header.extend(["ankle", "knee", "hip", "shoulder"].map(|centre| format!("{centre}_z_mm")));
-        header.extend(["top_mm", "bottom_mm"].map(String::from));
+        header.extend(["top_mm", "body_bottom_mm"].map(String::from));
         table.write_record(&header)?;
         for row in &self.rows {
             let mut cells = vec![
@@ -211,7 +216,10 @@ impl GaitSheet {
             ];
             let radians = row.chain_rad.iter().chain(&row.joints_rad);
             cells.extend(radians.map(|angle| format!("{angle:.6}")));
-            let heights = row.centres_mm.iter().chain([&row.top_mm, &row.bottom_mm]);
+            let heights = row
+                .centres_mm
+                .iter()
+                .chain([&row.top_mm, &row.body_bottom_mm]);
             cells.extend(heights.map(|height| format!("{height:.3}")));
             table.write_record(&cells)?;
         }

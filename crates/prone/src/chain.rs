@@ -10,7 +10,7 @@
 //! θ1+…+θ5 = α                                                     (3)
 //! ```
 //!
-//! Given the [`GaitParameters`] (θ3, θ4, α), with x̂ = d_e − l5 cos α, ẑ = −l5 sin α (the
+//! Given the [`GaitParameters`] (θ3, θ4, α), with x̂ = `d_e` − l5 cos α, ẑ = −l5 sin α (the
 //! shoulder), K1 = l2 + l3 cos θ3 + l4 cos(θ3+θ4) and K2 = −l3 sin θ3 − l4 sin(θ3+θ4):
 //!
 //! ```text

@@ -11,7 +11,7 @@
 //! ```
 //!
 //! The upper arm is spread by the shoulder roll r, which sets the projected length l5(r) and its
-//! zero angle. With the trunk at φ = θ1+…+θ4 the root is turned by R_y(φ⁰ − φ), and a flat
+//! zero angle. With the trunk at φ = θ1+…+θ4 the root is turned by φ⁰ − φ about +y, and a flat
 //! forearm solves for the two elbow hinges a, b:
 //!
 //! ```text
@@ -199,12 +199,11 @@ impl Mapping {
             joints[layout.hip] = sign[2] * (chain.hip - zero_hip);
             joints[layout.shoulder] = -sign[3] * (chain.shoulder - side.shoulder_zero);
             joints[layout.shoulder_roll] = side.roll;
-            let forearm = match self.fixed_forearm {
-                Some(fixed) => fixed[index],
-                None => {
-                    let ranges = layout.forearm.map(|id| robot.joints[id.0].range);
-                    side.flat_forearm(chain.trunk(), joints[layout.shoulder], ranges)?
-                }
+            let forearm = if let Some(fixed) = self.fixed_forearm {
+                fixed[index]
+            } else {
+                let ranges = layout.forearm.map(|id| robot.joints[id.0].range);
+                side.flat_forearm(chain.trunk(), joints[layout.shoulder], ranges)?
             };
             for (id, angle) in layout.forearm.into_iter().zip(forearm) {
                 joints[id] = angle;

@@ -253,7 +253,8 @@ impl Tables<'_> {
     fn side(&self, table: &SideTable, parts: &Parts) -> Result<SideLayout, FileError> {
         let direction = DVec3::from_array(table.forearm_direction);
         // 1e-6: a unit vector typed with six digits.
-        if !((direction.length() - 1.0).abs() < 1e-6) {
+        let is_unit = (direction.length() - 1.0).abs() < 1e-6;
+        if !is_unit {
             let message = format!("forearm_direction {direction} is not a unit vector");
             return Err(self.error(&table.elbow, message));
         }

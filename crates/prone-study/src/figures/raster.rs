@@ -7,12 +7,7 @@ use super::{FigureError, font, style};
 
 /// Rasterises `svg` at `scale` pixels per unit.
 pub(super) fn png(svg: &str, scale: f32) -> Result<Vec<u8>, FigureError> {
-    let options = Options {
-        fontdb: font::database(),
-        font_family: style::FONT_FAMILY.to_owned(),
-        ..Options::default()
-    };
-    let tree = Tree::from_str(svg, &options)?;
+    let tree = parse(svg)?;
     let mut pixels = blank(
         tree.size().width() * scale,
         tree.size().height() * scale,
@@ -23,6 +18,35 @@ pub(super) fn png(svg: &str, scale: f32) -> Result<Vec<u8>, FigureError> {
         Transform::from_scale(scale, scale),
         &mut pixels.as_mut(),
     );
+    encode(&pixels)
+}
+
+/// Draws `svg` over a picture of the same size, 8-bit RGB by rows, and encodes both as PNG.
+pub(crate) fn png_over(
+    svg: &str,
+    (width, height): (usize, usize),
+    rgb: &[u8],
+) -> Result<Vec<u8>, FigureError> {
+    let tree = parse(svg)?;
+    let mut pixels = blank(width as f32, height as f32, 1.0)?;
+    for (pixel, rgb) in pixels.data_mut().chunks_mut(4).zip(rgb.chunks(3)) {
+        pixel[..3].copy_from_slice(rgb);
+        pixel[3] = u8::MAX;
+    }
+    resvg::render(&tree, Transform::identity(), &mut pixels.as_mut());
+    encode(&pixels)
+}
+
+fn parse(svg: &str) -> Result<Tree, FigureError> {
+    let options = Options {
+        fontdb: font::database(),
+        font_family: style::FONT_FAMILY.to_owned(),
+        ..Options::default()
+    };
+    Ok(Tree::from_str(svg, &options)?)
+}
+
+fn encode(pixels: &Pixmap) -> Result<Vec<u8>, FigureError> {
     pixels
         .encode_png()
         .map_err(|error| FigureError::Encode(error.to_string()))

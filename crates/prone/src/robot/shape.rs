@@ -92,10 +92,12 @@ impl Robot {
             .fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// Height above the floor of the lowest point of all shapes, metres; ∞ without shapes.
-    pub fn bottom(&self, poses: &BodyPoses<Ground>) -> f64 {
+    /// Height above the floor of the lowest point of the shapes that `wanted` selects, metres; ∞
+    /// where it selects none.
+    pub fn bottom(&self, poses: &BodyPoses<Ground>, wanted: impl Fn(&Shape) -> bool) -> f64 {
         self.shapes
             .iter()
+            .filter(|shape| wanted(shape))
             .map(|shape| -shape.reach_along(poses.of(shape.body), DVec3::NEG_Z))
             .fold(f64::INFINITY, f64::min)
     }

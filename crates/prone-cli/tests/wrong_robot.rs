@@ -1,0 +1,87 @@
+//! Robots that are almost right: one message with the place, exit code 2.
+
+use std::fs;
+use std::process::Command;
+
+use prone_files::shipped::NAO;
+
+/// `prone robot check` on the shipped robot with one change in each of its files.
+fn check(toml: (&str, &str), mjcf: (&str, &str)) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    for (file, text, (from, to)) in [
+        ("robot.toml", NAO.toml, toml),
+        ("robot.xml", NAO.mjcf, mjcf),
+    ] {
+        assert!(text.contains(from), "{from} is not in {file}");
+        fs::write(folder.path().join(file), text.replacen(from, to, 1)).unwrap();
+    }
+    let output = Command::new(env!("CARGO_BIN_EXE_prone"))
+        .args(["robot", "check", "."])
+        .current_dir(folder.path())
+        .output()
+        .unwrap();
+    assert_eq!(
+        output.status.code(),
+        Some(2),
+        "{}",
+        String::from_utf8_lossy(&output.stdout)
+    );
+    assert!(output.stdout.is_empty());
+    String::from_utf8(output.stderr).unwrap()
+}
+
+const SAME: (&str, &str) = ("", "");
+
+#[test]
+fn a_joint_that_the_model_lacks_is_pointed_at() {
+    let message = check(("knee = \"LKneePitch\"", "knee = \"LKneePich\""), SAME);
+    insta::assert_snapshot!(message);
+}
+
+#[test]
+fn a_body_in_no_contact_group_is_named() {
+    let message = check(("\"LThigh\", ", ""), SAME);
+    insta::assert_snapshot!(message);
+}
+
+#[test]
+fn a_joint_with_two_drives_is_pointed_at() {
+    let message = check(
+        (
+            "joints = [\"HeadYaw\"]",
+            "joints = [\"HeadYaw\", \"HeadYaw\"]",
+        ),
+        SAME,
+    );
+    insta::assert_snapshot!(message);
+}
+
+#[test]
+fn a_hinge_out_of_the_sagittal_plane_is_refused() {
+    let message = check(
+        SAME,
+        (
+            "name=\"LKneePitch\" axis=\"0 1 0\"",
+            "name=\"LKneePitch\" axis=\"0 0 1\"",
+        ),
+    );
+    insta::assert_snapshot!(message);
+}
+
+#[test]
+fn malformed_mjcf_is_shown_with_its_line() {
+    let message = check(SAME, ("name=\"Chest\" type=", "name=\"Chest\" tipe="));
+    insta::assert_snapshot!(message);
+}
+
+#[test]
+fn unlimited_joints_are_refused() {
+    let message = check(SAME, (" range=\"-.0923 2.1125\"", ""));
+    insta::assert_snapshot!(message);
+}
+
+#[test]
+fn negative_lengths_are_refused() {
+    let message = check(("span_mm = 430.0", "span_mm = -430.0"), SAME);
+    insta::assert_snapshot!(message);
+}
