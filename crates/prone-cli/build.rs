@@ -1,6 +1,5 @@
 //! Lets the program find the engine at run time, and tells it the commit it was built from.
 
-use std::path::Path;
 use std::process::Command;
 
 fn main() {
@@ -9,10 +8,10 @@ fn main() {
 
     let commit = git(&["rev-parse", "--short=12", "HEAD"]).unwrap_or_else(|| "unknown".into());
     println!("cargo::rustc-env=PRONE_COMMIT={commit}");
-    // Run again when HEAD or the branch that it names moves.
+    // Run again when HEAD or the branch that it names moves; a file that is missing counts as
+    // changed.
     for name in ["HEAD", "logs/HEAD"] {
-        let path = git(&["rev-parse", "--git-path", name]);
-        if let Some(path) = path.filter(|path| Path::new(path).exists()) {
+        if let Some(path) = git(&["rev-parse", "--git-path", name]) {
             println!("cargo::rerun-if-changed={path}");
         }
     }

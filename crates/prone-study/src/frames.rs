@@ -5,7 +5,7 @@ use base64::engine::general_purpose::STANDARD as BASE64;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use prone_sim::camera::{self, Camera, Picture};
+use prone_sim::camera::{self, Camera, Picture, PictureError};
 use prone_sim::{Snapshot, World};
 
 use crate::figures::{Figure, raster};
@@ -17,6 +17,10 @@ const FRAME: (usize, usize) = (800, 300);
 /// Vertical field of view that shows a lying robot and the length of its stride in a frame of
 /// that shape, rad.
 const FIELD_OF_VIEW: f64 = 0.155;
+
+/// Size of the title picture, pixels, and its vertical field of view, rad.
+const COVER: (usize, usize) = (960, 432);
+const COVER_FIELD_OF_VIEW: f64 = 0.17;
 
 /// Height of the point that the camera looks at, m: half that of a lying robot.
 const MIDDLE: f64 = 0.08;
@@ -75,6 +79,16 @@ pub(crate) fn of(
         },
         png: raster::png_over(&svg(size, "", &labels), size, &stack.rgb)?,
     })
+}
+
+/// One larger picture, for a title page.
+pub(crate) fn cover(world: &World, snapshot: &Snapshot) -> Result<Vec<u8>, PictureError> {
+    let centre = world.centre_of_mass(snapshot).metres();
+    let camera = Camera {
+        vertical_fov: COVER_FIELD_OF_VIEW,
+        ..Camera::right_side(DVec3::new(centre.x, centre.y, MIDDLE))
+    };
+    camera::ray_cast(&mut world.at(snapshot), &camera, COVER).png()
 }
 
 /// The pictures one below the other.

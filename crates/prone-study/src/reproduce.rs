@@ -149,6 +149,11 @@ pub fn run(
         .par_iter()
         .map(|(gait, snapshots)| frames::of(&world, gait, study.showcase_s, snapshots))
         .collect::<Result<Vec<_>, _>>()?;
+    if let Some((_, snapshots)) = study.snapshots.first()
+        && let Some(middle) = snapshots.get(snapshots.len() / 2)
+    {
+        artefacts.insert("figures/crawl.png".into(), frames::cover(&world, middle)?);
+    }
     let pngs = drawn
         .par_iter()
         .map(|figure| figure.png(PNG_SCALE))

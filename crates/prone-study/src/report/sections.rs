@@ -51,10 +51,20 @@ pub(super) fn results(summary: &Summary) -> Markup {
                     strong { (span(&rms, |value| format!("{value:.2}"))) " N·m" }
                     span { "RMS between our torques and the recorded ones, by joint, from 3 s on, last 80 % of the phase" }
                 }
-                @for (gait, stride) in &summary.stride.chain_mm {
-                    li {
-                        strong { (format!("{stride:.1} mm")) }
-                        span { "advance of the shoulder per pull, planned chain, " (gait) " gait" }
+                li {
+                    strong {
+                        @for (index, (_, stride)) in summary.stride.chain_mm.iter().enumerate() {
+                            @if index > 0 { ", " }
+                            (format!("{stride:.1}"))
+                        }
+                        " mm"
+                    }
+                    span {
+                        "advance of the shoulder per pull in the planned chain, "
+                        @for (index, (gait, _)) in summary.stride.chain_mm.iter().enumerate() {
+                            @if index > 0 { ", " }
+                            (gait)
+                        }
                     }
                 }
             }
