@@ -7,7 +7,8 @@ use anyhow::anyhow;
 use serde_json::json;
 
 use prone_study::output::{self, OutputError};
-use prone_study::reproduce::{self, Program, ReproduceError, Reproduction};
+use prone_study::reproduce::{self, ReproduceError, Reproduction};
+use prone_study::run_info::Program;
 use prone_study::summary::Summary;
 use prone_study::torque_study::{Observer as _, Plan, StudyError};
 

@@ -1,3 +1,5 @@
+//! What the engine says: in our errors, and nowhere else.
+//!
 //! Keeps the engine from writing `MUJOCO_LOG.TXT` into the user's folder.
 //!
 //! What it would write there (a diverging state) is checked after every control step and returned
@@ -19,4 +21,9 @@ pub(crate) fn silence() {
         // all of them wait for this one write; nothing else reads or writes the settings.
         unsafe { set_log_config(quiet) }
     });
+}
+
+/// The engine's messages span lines; ours do not.
+pub(crate) fn one_line(message: &str) -> String {
+    message.split_whitespace().collect::<Vec<_>>().join(" ")
 }

@@ -19,7 +19,7 @@ use prone_files::FileError;
 use prone_files::robot_file::RobotFile;
 use prone_files::shipped::RobotSource;
 
-use crate::world::one_line;
+use crate::engine_log::{self, one_line};
 
 /// The two texts of a robot and where they came from.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -170,7 +170,7 @@ impl LoadedRobot {
     /// # Errors
     /// [`LoadError`], naming file, line and the missing or malformed thing.
     pub fn load(files: RobotFiles) -> Result<Self, LoadError> {
-        crate::engine_log::silence();
+        engine_log::silence();
         let toml_name = files.toml_name();
         let table = RobotFile::parse(&toml_name, &files.toml)?;
         let mjcf_name = format!("{}/{}", files.folder, table.model.get_ref());

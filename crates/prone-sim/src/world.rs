@@ -7,6 +7,7 @@ use mujoco_rs::wrappers::mj_editing::MjtLimited;
 
 use prone::robot::{BodyId, ContactGroup, JointId, Range, Robot};
 
+use crate::engine_log;
 use crate::load::LoadedRobot;
 use crate::regime::{self, Effort, Regime, Stops};
 
@@ -57,7 +58,7 @@ impl World {
         let model = compile(loaded, regime, &stops).map_err(|error| WorldError::Compile {
             robot: robot.name.clone(),
             regime: regime.name,
-            message: one_line(&error.to_string()),
+            message: engine_log::one_line(&error.to_string()),
         })?;
         let geom_groups = model
             .geom_bodyid()
@@ -94,7 +95,7 @@ impl World {
 }
 
 fn compile(loaded: &LoadedRobot, regime: Regime, stops: &[Range]) -> Result<MjModel, MjEditError> {
-    crate::engine_log::silence();
+    engine_log::silence();
     let robot = loaded.robot();
     let mut spec = MjSpec::from_xml_string(loaded.mjcf())?;
 
@@ -142,9 +143,4 @@ fn compile(loaded: &LoadedRobot, regime: Regime, stops: &[Range]) -> Result<MjMo
             .set_to_velocity(joint.servo_gain);
     }
     spec.compile()
-}
-
-/// The engine's messages span lines; ours do not.
-pub(crate) fn one_line(message: &str) -> String {
-    message.split_whitespace().collect::<Vec<_>>().join(" ")
 }

@@ -8,8 +8,7 @@ use rayon::prelude::*;
 use prone_sim::camera::{self, Camera, Picture, PictureError};
 use prone_sim::{Snapshot, World};
 
-use crate::figures::{Figure, raster};
-use crate::reproduce::ReproduceError;
+use crate::figures::{Figure, FigureError, raster};
 
 /// Size of one frame, pixels.
 const FRAME: (usize, usize) = (800, 300);
@@ -25,6 +24,17 @@ const COVER_FIELD_OF_VIEW: f64 = 0.17;
 /// Height of the point that the camera looks at, m: half that of a lying robot.
 const MIDDLE: f64 = 0.08;
 
+/// Why there are no frames.
+#[derive(Debug, thiserror::Error)]
+pub enum FramesError {
+    /// A picture cannot be encoded.
+    #[error(transparent)]
+    Picture(#[from] PictureError),
+    /// The instants cannot be written on it.
+    #[error(transparent)]
+    Labels(#[from] FigureError),
+}
+
 /// Frames of one gait.
 pub(crate) struct Frames {
     pub(crate) figure: Figure,
@@ -37,7 +47,7 @@ pub(crate) fn of(
     gait: &str,
     duration_s: f64,
     snapshots: &[Snapshot],
-) -> Result<Frames, ReproduceError> {
+) -> Result<Frames, FramesError> {
     let middle = snapshots
         .get(snapshots.len() / 2)
         .map_or(DVec3::ZERO, |snapshot| {
@@ -82,13 +92,13 @@ pub(crate) fn of(
 }
 
 /// One larger picture, for a title page.
-pub(crate) fn cover(world: &World, snapshot: &Snapshot) -> Result<Vec<u8>, PictureError> {
+pub(crate) fn cover(world: &World, snapshot: &Snapshot) -> Result<Vec<u8>, FramesError> {
     let centre = world.centre_of_mass(snapshot).metres();
     let camera = Camera {
         vertical_fov: COVER_FIELD_OF_VIEW,
         ..Camera::right_side(DVec3::new(centre.x, centre.y, MIDDLE))
     };
-    camera::ray_cast(&mut world.at(snapshot), &camera, COVER).png()
+    Ok(camera::ray_cast(&mut world.at(snapshot), &camera, COVER).png()?)
 }
 
 /// The pictures one below the other.

@@ -6,7 +6,7 @@
 pub mod agreement;
 pub mod contact_story;
 pub mod figures;
-mod frames;
+pub mod frames;
 pub mod gait_sheet;
 pub mod output;
 pub mod published;
@@ -14,6 +14,7 @@ pub mod record;
 mod report;
 pub mod reproduce;
 pub mod robot_sheet;
+pub mod run_info;
 pub mod summary;
 mod tables;
 pub mod torque_study;

@@ -8,7 +8,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::figures::Figure;
 use crate::frames::Frames;
-use crate::reproduce::RunInfo;
+use crate::run_info::RunInfo;
 use crate::summary::Summary;
 
 const STYLE: &str = include_str!("report/style.css");

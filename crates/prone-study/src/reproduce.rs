@@ -3,26 +3,15 @@
 use rayon::prelude::*;
 use serde::Serialize;
 
-use prone_sim::camera::PictureError;
-use prone_sim::regime::{
-    CONTROL_STEP, Effort, SERVO_RATE, SERVO_SPEED, SOLIMP, SOLREF, Stops, TIME_STEP,
-};
 use prone_sim::{LoadedRobot, Regime, World, WorldError};
 
 use crate::figures::{self, Figure, FigureError};
+use crate::frames::FramesError;
 use crate::output::{Artefacts, RUN_FILE};
+use crate::run_info::{Program, RunInfo};
 use crate::summary::{self, Summary};
 use crate::torque_study::{self, Observer, Plan, StudyError};
 use crate::{agreement, contact_story, frames, published, report, tables};
-
-/// Which program made a result.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Program {
-    /// Its version.
-    pub version: &'static str,
-    /// The commit it was built from, `unknown` outside a checkout.
-    pub commit: &'static str,
-}
 
 /// A finished reproduction.
 #[derive(Debug)]
@@ -33,52 +22,6 @@ pub struct Reproduction {
     pub summary: Summary,
     /// Engine steps done in all.
     pub engine_steps: usize,
-}
-
-/// What was run, for `run.json` and the report.
-#[derive(Debug, Clone, Serialize)]
-pub(crate) struct RunInfo {
-    pub(crate) program: &'static str,
-    #[serde(flatten)]
-    pub(crate) built: Program,
-    pub(crate) engine: String,
-    pub(crate) robot: RobotInfo,
-    pub(crate) options: Options,
-}
-
-#[derive(Debug, Clone, Serialize)]
-pub(crate) struct RobotInfo {
-    pub(crate) name: String,
-    pub(crate) folder: String,
-    pub(crate) sha256: String,
-}
-
-#[derive(Debug, Clone, Serialize)]
-pub(crate) struct Options {
-    pub(crate) gaits: Vec<GaitInfo>,
-    pub(crate) durations_s: Vec<f64>,
-    pub(crate) showcase_s: f64,
-    pub(crate) regime: &'static str,
-    pub(crate) friction: f64,
-    pub(crate) impratio: f64,
-    pub(crate) effort_limit: String,
-    pub(crate) stops: String,
-    pub(crate) time_step_s: f64,
-    pub(crate) control_step_s: f64,
-    pub(crate) servo_rate_per_s: f64,
-    pub(crate) servo_speed_rad_s: f64,
-    pub(crate) solref: [f64; 2],
-    pub(crate) solimp: [f64; 5],
-    pub(crate) start_posture: String,
-    pub(crate) settle_s: f64,
-}
-
-#[derive(Debug, Clone, Serialize)]
-pub(crate) struct GaitInfo {
-    pub(crate) name: String,
-    pub(crate) description: String,
-    pub(crate) mapping: &'static str,
-    pub(crate) arm: &'static str,
 }
 
 /// Why a reproduction fails.
@@ -93,9 +36,9 @@ pub enum ReproduceError {
     /// A figure cannot be drawn.
     #[error(transparent)]
     Figure(#[from] FigureError),
-    /// A picture cannot be encoded.
+    /// The frames of the simulated robot cannot be made.
     #[error(transparent)]
-    Picture(#[from] PictureError),
+    Frames(#[from] FramesError),
     /// A table cannot be written or read.
     #[error("table: {0}")]
     Csv(#[from] csv::Error),
@@ -128,7 +71,7 @@ pub fn run(
         .map(contact_story::of)
         .collect();
     let summary = summary::of(&study, agreement, stories);
-    let info = run_info(robot, &world, plan, program);
+    let info = RunInfo::of(robot, &world, plan, program);
 
     let mut artefacts = Artefacts::new();
     for pull in &study.pulls {
@@ -185,59 +128,4 @@ fn json(value: &impl Serialize) -> Result<Vec<u8>, serde_json::Error> {
     let mut text = serde_json::to_vec_pretty(value)?;
     text.push(b'\n');
     Ok(text)
-}
-
-fn run_info(robot: &LoadedRobot, world: &World, plan: &Plan, program: &Program) -> RunInfo {
-    let regime = world.regime();
-    let study = &robot.robot().study;
-    let moved = study.stops.iter().map(|(joint, range)| {
-        let name = &robot.robot().joints[joint.0].name;
-        format!("{name} {} to {} rad", range.lower, range.upper)
-    });
-    RunInfo {
-        program: "prone",
-        built: program.clone(),
-        engine: prone_sim::engine_version(),
-        robot: RobotInfo {
-            name: robot.robot().name.clone(),
-            folder: robot.files().folder.clone(),
-            sha256: robot.files().hash(),
-        },
-        options: Options {
-            gaits: plan
-                .gaits()
-                .iter()
-                .map(|gait| GaitInfo {
-                    name: gait.name.clone(),
-                    description: gait.description.clone(),
-                    mapping: gait.mapping.name(),
-                    arm: gait.arm.name(),
-                })
-                .collect(),
-            durations_s: plan.durations_s(),
-            showcase_s: plan.showcase_s(),
-            regime: regime.name,
-            friction: regime.friction,
-            impratio: regime.impratio,
-            effort_limit: match regime.effort {
-                Effort::Published => "the maker's".to_owned(),
-                Effort::Uniform(limit) => format!("{limit} N·m on every joint"),
-            },
-            stops: match regime.stops {
-                Stops::Maker => "the maker's".to_owned(),
-                Stops::Study => {
-                    let moved: Vec<String> = moved.collect();
-                    format!("the maker's, but {}", moved.join(", "))
-                }
-            },
-            time_step_s: TIME_STEP,
-            control_step_s: CONTROL_STEP,
-            servo_rate_per_s: SERVO_RATE,
-            servo_speed_rad_s: SERVO_SPEED,
-            solref: SOLREF,
-            solimp: SOLIMP,
-            start_posture: study.start_posture.clone(),
-            settle_s: prone_sim::pull::SETTLE,
-        },
-    }
 }

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use crate::contact_story::ContactStory;
-use crate::reproduce::RunInfo;
+use crate::run_info::RunInfo;
 use crate::summary::{CostRow, Summary};
 
 /// From this duration on the unknown start pose of the recordings no longer decides the cost.

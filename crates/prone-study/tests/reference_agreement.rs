@@ -1,0 +1,95 @@
+//! The simulated study against the published recordings and costs.
+//!
+//! The limits are what a simulation of another engine, mass and start pose can be expected to
+//! reach without being tuned (the recorded curves themselves differ by a few hundredths of a
+//! newton metre between durations). Below 3 s the unknown start pose decides.
+
+use prone_files::shipped;
+use prone_sim::{LoadedRobot, Regime, RobotFiles, World};
+use prone_study::torque_study::{self, Observer, Plan, TorqueStudy};
+use prone_study::{agreement, published, summary};
+
+/// Watches nothing and never stops.
+struct Nobody;
+
+impl Observer for Nobody {
+    fn phase_done(&self) {}
+
+    fn stop(&self) -> bool {
+        false
+    }
+}
+
+fn study(durations_s: &[f64]) -> TorqueStudy {
+    let robot = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
+    let world = World::new(&robot, Regime::TORQUE_STUDY).unwrap();
+    let gaits = ["nominal", "optimal"].map(|name| shipped::gait(name).unwrap().unwrap());
+    let plan = Plan::new(gaits.to_vec(), durations_s).unwrap();
+    torque_study::run(&world, &plan, &Nobody).unwrap()
+}
+
+/// Largest RMS, N·m, and smallest correlation, where one is asked for.
+fn limits(gait: &str, joint: &str) -> (f64, Option<f64>) {
+    match (gait, joint) {
+        (_, "ankle" | "knee") => (0.15, Some(0.90)),
+        ("nominal", "hip") => (0.30, Some(0.90)),
+        // The optimal gait's hip torque hardly varies, so that its correlation says nothing.
+        (_, "hip") => (0.12, None),
+        _ => (0.20, Some(0.80)),
+    }
+}
+
+#[test]
+fn reference_torques_follow_the_recordings() {
+    let study = study(&[3.0, 5.0, 7.0, 10.0]);
+    let agreement = agreement::of(&study.pulls, &published::torque_bins().unwrap());
+    assert_eq!(
+        agreement.len(),
+        2 * 4 * 4,
+        "two gaits, four durations, four joints"
+    );
+    for row in agreement {
+        let (rms, correlation) = limits(&row.gait, row.joint);
+        assert!(row.rms_nm <= rms, "{row:?}");
+        if let Some(least) = correlation {
+            assert!(
+                row.correlation.is_some_and(|value| value >= least),
+                "{row:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn reference_costs_are_near_the_published_ones() {
+    let study = study(&[3.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0]);
+    let summary = summary::of(&study, Vec::new(), Vec::new());
+    for row in summary.costs.iter().filter(|row| row.duration_s >= 5.0) {
+        let limit = if row.gait == "nominal" { 0.10 } else { 0.17 };
+        assert!(row.relative_difference.unwrap().abs() <= limit, "{row:?}");
+    }
+    for row in &summary.ratios {
+        assert!(row.ours < 1.0, "the optimal gait is cheaper: {row:?}");
+        if row.duration_s >= 5.0 {
+            assert!((0.84..=0.92).contains(&row.ours), "{row:?}");
+        }
+    }
+}
+
+#[test]
+fn reference_planned_chain_of_the_nominal_gait() {
+    let summary = summary::of(&study(&[1.0]), Vec::new(), Vec::new());
+    let peak = summary
+        .ankle_peak
+        .iter()
+        .find(|peak| peak.gait == "nominal")
+        .unwrap();
+    assert!((103.0..=104.0).contains(&peak.height_mm), "{peak:?}");
+    let (_, stride) = summary
+        .stride
+        .chain_mm
+        .iter()
+        .find(|(gait, _)| gait == "nominal")
+        .unwrap();
+    assert!((stride - 77.7).abs() < 0.05, "{stride} mm");
+}
