@@ -35,7 +35,7 @@ FIGURES = [
     "fig-45-right-cost-ratio",
 ]
 FILES = sorted(
-    ["report.html", "run.json", "summary.json", "timing.json", "costs.csv", "agreement.csv"]
+    ["figures/crawl.png", "report.html", "run.json", "summary.json", "timing.json", "costs.csv", "agreement.csv"]
     + [f"torques/{gait}-{duration:04.1f}s.csv" for gait in GAITS for duration in DURATIONS]
     + [f"figures/{figure}.{kind}" for figure in FIGURES for kind in ("svg", "png")]
 )

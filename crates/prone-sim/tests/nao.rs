@@ -308,3 +308,124 @@ fn regression_nominal_pull_of_five_seconds() {
         }
     }
 }
+
+/// The motor of a joint holds up what hangs beyond it: the sign of **actuator torque**, from
+/// nothing but weights and positions. Shins and feet are in the air in this posture.
+#[test]
+fn actuator_torque_holds_the_legs_that_hang_in_the_air() {
+    let loaded = nao();
+    let robot = loaded.robot();
+    let world = World::new(&loaded, Regime::TORQUE_STUDY).unwrap();
+    let placement = Placement {
+        posture: robot.postures["recorded-start"].clone(),
+        pitch: FRAC_PI_2,
+    };
+    let mut simulation = Simulation::new(&world, &placement);
+    let mut means = simulation.control_step().unwrap();
+    for _ in 0..60 {
+        means = simulation.control_step().unwrap();
+    }
+    let poses = simulation.body_poses();
+    for (joint, bodies) in [
+        ("RHipPitch", &["RThigh", "RTibia", "RAnkle", "RFoot"][..]),
+        ("RKneePitch", &["RTibia", "RAnkle", "RFoot"][..]),
+    ] {
+        let id = robot.joint(joint).unwrap();
+        let hinge = &robot.joints[id.0];
+        let centre = poses.point((hinge.body, hinge.anchor));
+        // About +y a weight behind the joint (smaller x) turns it by +m g (x_joint − x_weight)
+        // against the motor.
+        let moment: f64 = bodies
+            .iter()
+            .map(|name| {
+                let body = robot.body(name).unwrap();
+                let weight = &robot.bodies[body.0];
+                let x = poses.point((body, weight.centre_of_mass)).x();
+                weight.mass * 9.81 * (centre.x() - x)
+            })
+            .sum();
+        assert!(moment > 0.1, "{joint} carries something: {moment}");
+        assert_near(means.actuator_torque[id.0], moment, 0.02, joint);
+    }
+}
+
+/// Toes carry behind, elbows in front: their shares balance the weight about the toes.
+#[test]
+fn contact_groups_balance_the_weight_in_the_middle_of_the_pull() {
+    let loaded = nao();
+    let robot = loaded.robot();
+    let world = World::new(&loaded, Regime::TORQUE_STUDY).unwrap();
+    let gait = shipped::gait("nominal").unwrap().unwrap();
+    let duration = prone::gait::PhaseDuration::new(5.0).unwrap();
+    let pull = prone_sim::pull::run(&world, &gait, duration, 0).unwrap();
+    let row = &pull.rows[59];
+    let poses = robot.forward_kinematics(row.ground_from_root, &row.angles);
+    let weight = robot.mass() * 9.81;
+    let toe = poses.point(robot.chain.right.toe).x();
+    let elbow = poses.point(robot.chain.right.elbow).x();
+    let centre = robot.centre_of_mass(&poses).x();
+    let [on_toes, on_elbows, on_torso, on_legs] = row.contact;
+    let lever = (centre - toe) / (elbow - toe) * weight;
+    // 15 %: feet and forearms are longer than points.
+    assert_near(on_elbows, lever, 0.15 * weight, "elbows, N");
+    assert_near(on_toes, weight - lever, 0.15 * weight, "toes, N");
+    assert!(
+        on_elbows > on_toes && on_torso + on_legs < 0.01 * weight,
+        "{row:?}"
+    );
+    // The trunk moves forward, and straight.
+    let end = pull.rows[99].ground_from_root.origin().metres();
+    let travel = end - pull.start.origin().metres();
+    assert!(
+        (0.05..0.08).contains(&travel.x) && travel.y.abs() < 1e-4,
+        "{travel}"
+    );
+}
+
+#[test]
+fn reference_clamps_of_the_published_gaits() {
+    let loaded = nao();
+    let robot = loaded.robot();
+    let duration = prone::gait::PhaseDuration::new(5.0).unwrap();
+    // AnklePitch in the first 11 % of the nominal phase, ElbowRoll from α = −88.4° on.
+    for (gait, expected) in [
+        (
+            "nominal",
+            [
+                ("LAnklePitch", 12, -3.84),
+                ("LElbowRoll", 3, -1.50),
+                ("RAnklePitch", 12, -4.03),
+                ("RElbowRoll", 3, 1.50),
+            ],
+        ),
+        (
+            "optimal",
+            [
+                ("LAnklePitch", 6, -3.84),
+                ("LElbowRoll", 8, -1.44),
+                ("RAnklePitch", 6, -4.03),
+                ("RElbowRoll", 8, 1.44),
+            ],
+        ),
+    ] {
+        let gait = shipped::gait(gait).unwrap().unwrap();
+        let planned =
+            prone::gait::CheckedTrajectory::plan(robot, &robot.study_stops(), &gait, duration, 100)
+                .unwrap();
+        let mut clamps: Vec<_> = planned
+            .clamps()
+            .iter()
+            .map(|clamp| {
+                let name = robot.joints[clamp.joint.0].name.as_str();
+                (name, clamp.samples, clamp.largest.to_degrees())
+            })
+            .collect();
+        clamps.sort_by_key(|(name, ..)| *name);
+        assert_eq!(clamps.len(), expected.len(), "{clamps:?}");
+        for ((name, samples, largest), (joint, count, degrees)) in clamps.into_iter().zip(expected)
+        {
+            assert_eq!((name, samples), (joint, count), "{}", gait.name);
+            assert_near(largest, degrees, 0.01, name);
+        }
+    }
+}

@@ -1,6 +1,6 @@
 //! What an experiment leaves behind: the numbers that tables, figures and report read.
 //!
-//! Torque here is **recorded torque**: minus the actuator torque about the joint's axis, of the
+//! Torque here is **joint torque in the sign of the recordings**: minus the actuator torque about the joint's axis, of the
 //! right side, averaged over one control step. That is the sign and the averaging of the
 //! published recordings.
 
@@ -27,7 +27,7 @@ pub struct PullRow {
     pub time_s: f64,
     /// The same in percent of the phase.
     pub cycle_percent: f64,
-    /// Recorded torque, N·m, in the order of [`JOINTS`].
+    /// Joint torque in that sign, N·m, in the order of [`JOINTS`].
     pub torque_nm: [f64; 4],
     /// Commanded angles, rad: [`JOINTS`], then shoulder roll and the two forearm hinges.
     pub command_rad: [f64; 7],

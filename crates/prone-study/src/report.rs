@@ -27,13 +27,13 @@ const GROUPS: [Group; 3] = [
         numbers: &["25", "26", "34"],
     },
     Group {
-        title: "Recorded torques",
-        lead: "Recorded torque is minus the actuator torque about the joint's axis, right side, averaged over one control step: the sign and averaging of the published recordings. All curves are ours.",
+        title: "Joint torques",
+        lead: "Joint torque is minus the actuator torque about the joint's axis, right side, averaged over one control step: the sign and averaging of the published recordings. All curves are ours.",
         numbers: &["36", "37", "38", "39", "40", "41", "42", "43", "44"],
     },
     Group {
         title: "Cost against duration",
-        lead: "Cost is the integral over the phase of the squared recorded torques of one side, unweighted. The published axis is labelled N²/m²; the quantity is N²·m²·s.",
+        lead: "Cost is the integral over the phase of the squared joint torques of one side, unweighted. The published axis is labelled N²/m²; the quantity is N²·m²·s.",
         numbers: &["45"],
     },
 ];
@@ -80,8 +80,8 @@ pub(crate) fn html(
                 footer {
                     p {
                         "prone " (info.built.version) ", commit " (info.built.commit) ", "
-                        (info.engine) ". Everything on this page was computed by the run that wrote \
-                         it, except figures marked published."
+                        (info.engine) ". Tables and figures were computed by the run that wrote this page, \
+                         except what is marked published; the text describes the NAO."
                     }
                 }
             }

@@ -60,6 +60,30 @@ fn reference_torques_follow_the_recordings() {
     }
 }
 
+/// Sign and side of the records: minus the actuator torque, right side. (Costs are even in the
+/// torque, and left and right differ by up to 0.08 N·m.)
+#[test]
+fn regression_records_are_minus_the_right_actuators() {
+    let study = study(&[5.0]);
+    let row = &study.pulls[0].rows[49];
+    for (ours, expected) in row
+        .torque_nm
+        .iter()
+        .zip([0.009_65, 0.538_11, 0.769_95, -0.479_62])
+    {
+        assert!(
+            (ours - expected).abs() < 1e-3,
+            "{ours} is not {expected} N·m"
+        );
+    }
+    // Of the optimal gait, where the sides part while the chain lifts.
+    let lifting = &study.pulls[1].rows[8];
+    let right = [-0.409, 0.317];
+    for (ours, expected) in lifting.torque_nm.iter().zip(right) {
+        assert!((ours - expected).abs() < 0.02, "{:?}", lifting.torque_nm);
+    }
+}
+
 #[test]
 fn reference_costs_are_near_the_published_ones() {
     let study = study(&[3.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0]);

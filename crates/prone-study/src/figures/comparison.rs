@@ -43,10 +43,7 @@ pub(super) fn figure(pulls: &[PullRecord], reference: &str, other: &str) -> Opti
     let wording = Wording {
         stem: format!("fig-44-{reference}-against-{other}"),
         number: "44",
-        title: format!(
-            "{} against {other} gait: recorded torque",
-            sentence(reference)
-        ),
+        title: format!("{} against {other} gait: joint torque", sentence(reference)),
         caption: format!(
             "Torque, N·m, over time, s, of the {reference} gait (solid) and the {other} gait \
              (dashed); a row per joint with one torque scale, a column per duration ({durations} \

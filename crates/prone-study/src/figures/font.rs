@@ -62,7 +62,7 @@ mod tests {
 
     #[test]
     fn bold_is_wider_and_width_scales_with_size() {
-        let at = |size, weight| width("recorded torque", size, weight);
+        let at = |size, weight| width("joint torque", size, weight);
         assert!(at(10.0, Weight::Bold) > at(10.0, Weight::Regular));
         // Advances scale linearly; the font unit is 1/2048 of the size.
         assert!((at(20.0, Weight::Regular) - 2.0 * at(10.0, Weight::Regular)).abs() < 0.1);

@@ -1,4 +1,4 @@
-//! Figures 36 to 43: recorded torque of one gait, by duration and by joint.
+//! Figures 36 to 43: joint torque of one gait, by duration and by joint.
 
 use super::axis::Axis;
 use super::panel::{Curve, Note, Panel, Rule};
@@ -11,10 +11,9 @@ use super::{Figure, Wording, selection, sentence};
 use crate::record::{JOINTS, PullRecord, PullRow};
 
 /// Quantity and unit of every torque axis.
-pub(super) const TORQUE_LABEL: &str = "recorded torque, N·m";
+pub(super) const TORQUE_LABEL: &str = "joint torque, N·m";
 /// What that quantity is; part of every torque caption.
-pub(super) const TORQUE_MEANING: &str =
-    "Recorded torque is minus the actuator torque of the right side, averaged over a control step.";
+pub(super) const TORQUE_MEANING: &str = "Joint torque is minus the actuator torque of the right side, averaged over a control step: the sign of the published recordings.";
 
 /// Durations shown one panel each, s.
 const PANEL_DURATIONS_S: [f64; 6] = [1.0, 2.0, 3.0, 5.0, 7.0, 10.0];
@@ -110,7 +109,7 @@ fn by_duration(gait: &str, runs: &[&PullRecord], number: &'static str) -> Figure
         stem: format!("fig-{number}-{gait}-torque-by-duration"),
         number,
         title: format!(
-            "{} gait: recorded torque of four joints, by duration",
+            "{} gait: joint torque of four joints, by duration",
             sentence(gait)
         ),
         caption: format!(
@@ -153,7 +152,7 @@ fn by_joint(gait: &str, runs: &[&PullRecord], number: &'static str, span: Span) 
     let wording = Wording {
         stem: format!("fig-{number}-{gait}-{}", span.stem()),
         number,
-        title: format!("{} gait: recorded torque {}", sentence(gait), span.title()),
+        title: format!("{} gait: joint torque {}", sentence(gait), span.title()),
         caption: format!(
             "Torque, N·m, {} of the closed-chain phase of the {gait} gait; one panel per joint, \
              one line per duration ({durations} s; the colour bar names them). {}{TORQUE_MEANING} \

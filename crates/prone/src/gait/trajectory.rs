@@ -99,6 +99,22 @@ pub enum TrajectoryError {
         /// What is out of reach.
         source: ClosureError,
     },
+    /// A joint centre of the planned chain would lie below the floor.
+    #[error(
+        "gait {gait}: the {centre} would be {depth_mm:.1} mm below the floor at sample {sample} (s = {s:.3})"
+    )]
+    BelowFloor {
+        /// The gait's name.
+        gait: String,
+        /// Which joint centre.
+        centre: &'static str,
+        /// The sample, from 0.
+        sample: usize,
+        /// Its phase.
+        s: f64,
+        /// How far below, mm.
+        depth_mm: f64,
+    },
     /// The forearm cannot be pointed somewhere.
     #[error("gait {gait}, sample {sample} (s = {s:.3}): {source}")]
     Forearm {
@@ -162,6 +178,16 @@ impl CheckedTrajectory {
                 source,
             };
             let chain = mapping.chain().close(gait.parameters(s)).map_err(closure)?;
+            let posture = mapping.chain().posture(&chain);
+            if let Some((centre, height)) = below_floor(&posture) {
+                return Err(TrajectoryError::BelowFloor {
+                    gait: gait.name.clone(),
+                    centre,
+                    sample,
+                    s,
+                    depth_mm: -height * 1e3,
+                });
+            }
             let mut joints =
                 mapping
                     .joint_angles(robot, &chain)
@@ -196,7 +222,7 @@ impl CheckedTrajectory {
             samples.push(Sample {
                 s,
                 chain,
-                posture: mapping.chain().posture(&chain),
+                posture,
                 joints,
             });
         }
@@ -222,6 +248,20 @@ impl CheckedTrajectory {
     pub fn clamps(&self) -> &[Clamp] {
         &self.clamps
     }
+}
+
+/// The first joint centre below the floor, toe to shoulder, and its height, m.
+fn below_floor(posture: &ChainPosture) -> Option<(&'static str, f64)> {
+    let centres = [
+        ("ankle", posture.ankle),
+        ("knee", posture.knee),
+        ("hip", posture.hip),
+        ("shoulder", posture.shoulder),
+    ];
+    centres
+        .into_iter()
+        .map(|(name, centre)| (name, centre.z()))
+        .find(|(_, height)| *height < 0.0)
 }
 
 fn note(clamps: &mut Vec<Clamp>, joint: JointId, excess: f64, s: f64) {
