@@ -13,6 +13,7 @@ mod engine_log;
 mod load;
 pub mod pull;
 pub mod regime;
+pub mod settled;
 mod simulation;
 mod world;
 

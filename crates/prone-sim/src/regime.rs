@@ -17,6 +17,8 @@ pub struct Regime {
     pub stops: Stops,
     /// Which torque limit holds.
     pub effort: Effort,
+    /// Which servo gains hold.
+    pub servo: Servo,
 }
 
 /// Which joint stops a regime uses.
@@ -38,6 +40,15 @@ pub enum Effort {
     Uniform(f64),
 }
 
+/// Which servo gains a regime uses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Servo {
+    /// The robot's own ([`prone::robot::Joint::servo_gain`]).
+    Robot,
+    /// The same velocity gain for all joints, N·m·s/rad.
+    Uniform(f64),
+}
+
 impl Regime {
     /// Slippery contacts, so that the chain squeezes nothing: the recordings had practically no
     /// internal squeeze (−0.3 ± 2.3 N), and their servos a limit of 30 N·m.
@@ -47,6 +58,7 @@ impl Regime {
         impratio: 1.0,
         stops: Stops::Study,
         effort: Effort::Uniform(30.0),
+        servo: Servo::Robot,
     };
 
     /// Contacts that stick, with the maker's limits on: for moving forward.
@@ -56,6 +68,26 @@ impl Regime {
         impratio: 10.0,
         stops: Stops::Maker,
         effort: Effort::Published,
+        servo: Servo::Robot,
+    };
+
+    /// For settled torques, which match the recorded static table: full friction, but so soft
+    /// sideways that the squeeze of setting the robot down creeps away within half a second.
+    pub const TABLE: Self = Self {
+        name: "table",
+        friction: 1.0,
+        impratio: 0.1,
+        stops: Stops::Study,
+        effort: Effort::Uniform(30.0),
+        servo: Servo::Robot,
+    };
+
+    /// Stiff joints on a slippery floor: the rigid body of [`prone::statics`]. 20 N·m·s/rad times
+    /// [`SERVO_RATE`] is 400 N·m/rad.
+    pub const STIFF: Self = Self {
+        name: "stiff",
+        servo: Servo::Uniform(20.0),
+        ..Self::TORQUE_STUDY
     };
 }
 

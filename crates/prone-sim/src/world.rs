@@ -9,7 +9,7 @@ use prone::robot::{BodyId, ContactGroup, JointId, Range, Robot};
 
 use crate::engine_log;
 use crate::load::LoadedRobot;
-use crate::regime::{self, Effort, Regime, Stops};
+use crate::regime::{self, Effort, Regime, Servo, Stops};
 
 /// Rolling and torsional friction, m: the engine's defaults. Contacts are three-dimensional
 /// (condim 3), which leaves both unused; they are stated so that no hidden default is.
@@ -134,13 +134,17 @@ fn compile(loaded: &LoadedRobot, regime: Regime, stops: &[Range]) -> Result<MjMo
             Effort::Published => joint.effort_limit,
             Effort::Uniform(limit) => limit,
         };
+        let gain = match regime.servo {
+            Servo::Robot => joint.servo_gain,
+            Servo::Uniform(gain) => gain,
+        };
         spec.add_actuator()
             .with_name(&joint.name)
             .with_target(&joint.name)
             .with_trntype(MjtTrn::mjTRN_JOINT)
             .with_forcerange([-limit, limit])
             .with_forcelimited(MjtLimited::mjLIMITED_TRUE)
-            .set_to_velocity(joint.servo_gain);
+            .set_to_velocity(gain);
     }
     spec.compile()
 }

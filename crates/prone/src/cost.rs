@@ -1,4 +1,11 @@
 //! What a crawl costs.
+//!
+//! [`squared_torque_integral`] prices a record as the published study does; [`published`] repeats
+//! the original objective to the digit; [`graded`] keeps torque and violations apart and compares
+//! them in that order of importance.
+
+pub mod graded;
+pub mod published;
 
 /// Integral over time of the sum of squared torques, N²·m²·s, by the trapezoid rule.
 ///

@@ -2,8 +2,9 @@
 //!
 //! Seen from the side, a prone humanoid with toes and elbows planted is a closed five-link
 //! chain. This crate holds that chain ([`chain`]), the curves that steer it ([`gait`]), the way
-//! from chain angles to a robot's joints ([`mapping`]), the robot as data ([`robot`]) and what a
-//! crawl costs ([`cost`]).
+//! from chain angles to a robot's joints ([`mapping`]), the robot as data ([`robot`]), the torques
+//! that hold it still ([`statics`]) or that a table knows ([`torque_map`]), and what a crawl costs
+//! ([`cost`]).
 //!
 //! It reads no file, no clock and no random number, and knows no particular robot: files are
 //! read by `prone-files`, the robot's shape comes from its MJCF through `prone-sim`.
@@ -17,3 +18,5 @@ pub mod frames;
 pub mod gait;
 pub mod mapping;
 pub mod robot;
+pub mod statics;
+pub mod torque_map;

@@ -1,0 +1,242 @@
+//! A price in two parts: what the gait costs, and by how much it breaks the rules.
+//!
+//! Prices compare lexicographically (Deb 2000, *An efficient constraint handling method for
+//! genetic algorithms*): less violation wins, and only between equals less torque. A violation is
+//! graded, as a share of its limit, so that a search knows its way to the feasible gaits:
+//!
+//! ```text
+//! rate:       |Δθ| / (Δt · limit) − 1      per joint and interval               (1)
+//! clearance:  (required − height) / required                                    (2)
+//! closure:    |cos| − 1                    of equation (4) of the chain         (3)
+//! torque:     1                            where the source has no answer       (4)
+//! ```
+//!
+//! summed over samples. The torque part is one of (trapezoid rule over equal intervals)
+//!
+//! ```text
+//! ∫ Σ w τ² dt  [N²·m²·s],   max |τ|/τ_rated  [1],   ∫ Σ (τ/τ_nominal)² dt  [s]   (5)
+//! ```
+//!
+//! per phase, or divided by the metres the phase advances.
+
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+
+use crate::chain::{ChainAngles, ClosedChain, ClosureError, GaitParameters};
+
+use crate::torque_map::{JointTorques, TorqueSource};
+
+/// A rule that a gait can break.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Rule {
+    /// The chain closes.
+    Closure,
+    /// The source knows the torques.
+    Torque,
+    /// The body keeps its height.
+    Clearance,
+    /// No joint is faster than its limit.
+    Rate,
+}
+
+/// By how much a rule is broken.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Excess {
+    /// How often.
+    pub count: u32,
+    /// Sum, shares of the limit.
+    pub sum: f64,
+    /// The largest, share of the limit.
+    pub worst: f64,
+}
+
+/// All rules that are broken.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Violations(BTreeMap<Rule, Excess>);
+
+impl Violations {
+    /// Adds an excess, a share of the limit; nothing unless it is positive or not a number.
+    pub fn add(&mut self, rule: Rule, excess: f64) {
+        if excess <= 0.0 {
+            return;
+        }
+        let excess = if excess.is_nan() { f64::MAX } else { excess };
+        let entry = self.0.entry(rule).or_default();
+        entry.count += 1;
+        entry.sum += excess;
+        entry.worst = entry.worst.max(excess);
+    }
+
+    /// Sum over all rules; zero exactly for a feasible gait.
+    pub fn total(&self) -> f64 {
+        self.0
+            .values()
+            .fold(0.0, |total, excess| total + excess.sum)
+    }
+
+    /// The broken rules, in order.
+    pub fn iter(&self) -> impl Iterator<Item = (Rule, Excess)> + '_ {
+        self.0.iter().map(|(&rule, &excess)| (rule, excess))
+    }
+}
+
+/// What a gait costs and which rules it breaks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Price {
+    /// The torque part (5), over the samples that have torques.
+    pub torque: f64,
+    /// The rules it breaks.
+    pub violations: Violations,
+}
+
+impl Price {
+    /// Deb's order: violation, then torque.
+    pub fn order(&self, other: &Self) -> Ordering {
+        let violation = self.violations.total().total_cmp(&other.violations.total());
+        violation.then(self.torque.total_cmp(&other.torque))
+    }
+}
+
+/// Which torque part of (5); arrays are in the order of [`JointTorques`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Norm {
+    /// ∫ Σ w τ² dt.
+    SquaredTorque {
+        /// w.
+        weights: [f64; 4],
+    },
+    /// max |τ|/`τ_rated`.
+    Peak {
+        /// `τ_rated`, N·m.
+        rated: [f64; 4],
+    },
+    /// ∫ Σ (τ/`τ_nominal`)² dt.
+    Heat {
+        /// `τ_nominal`, N·m.
+        nominal: [f64; 4],
+    },
+}
+
+impl Norm {
+    /// The norm of equally spaced torques, `interval` seconds apart.
+    pub fn of(&self, torques: &[JointTorques], interval: f64) -> f64 {
+        match self {
+            Self::SquaredTorque { weights } => integral(torques, interval, |tau| {
+                tau.iter()
+                    .zip(weights)
+                    .map(|(tau, weight)| weight * tau * tau)
+                    .sum()
+            }),
+            Self::Peak { rated } => torques
+                .iter()
+                .flat_map(|row| row.to_array().into_iter().zip(rated))
+                .map(|(tau, rated)| tau.abs() / rated)
+                .fold(0.0, f64::max),
+            Self::Heat { nominal } => integral(torques, interval, |tau| {
+                tau.iter()
+                    .zip(nominal)
+                    .map(|(tau, nominal)| (tau / nominal).powi(2))
+                    .sum()
+            }),
+        }
+    }
+}
+
+fn integral(torques: &[JointTorques], interval: f64, of: impl Fn([f64; 4]) -> f64) -> f64 {
+    let values: Vec<f64> = torques.iter().map(|row| of(row.to_array())).collect();
+    values
+        .windows(2)
+        .map(|pair| 0.5 * (pair[0] + pair[1]) * interval)
+        .sum()
+}
+
+/// What the torque part is divided by.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Per {
+    /// Nothing: one phase.
+    Phase,
+    /// The metres that one phase advances.
+    Metre {
+        /// Advance of the shoulder in one phase, m.
+        advance: f64,
+    },
+}
+
+/// What a gait has to keep to.
+pub struct Rules<Height> {
+    /// Height to be kept by whatever `height` measures, m; positive.
+    pub clearance: f64,
+    /// Height of the lowest part that must not touch, m: the hip centre, or the body's shapes.
+    pub height: Height,
+    /// Fastest joint allowed, rad/s; infinite for none.
+    pub rate: f64,
+}
+
+/// A phase to be priced.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Phase<'a> {
+    /// Gait parameters at equal intervals.
+    pub samples: &'a [GaitParameters],
+    /// Time between samples, s.
+    pub interval: f64,
+}
+
+/// Prices a phase.
+pub fn price<Height: Fn(&ChainAngles) -> f64>(
+    chain: &ClosedChain,
+    phase: Phase<'_>,
+    source: &impl TorqueSource,
+    rules: &Rules<Height>,
+    norm: &Norm,
+    per: Per,
+) -> Price {
+    let mut violations = Violations::default();
+    let mut torques = Vec::with_capacity(phase.samples.len());
+    let mut before = None;
+    for &sample in phase.samples {
+        let angles = match chain.close(sample) {
+            Ok(angles) => angles,
+            Err(ClosureError::OutOfReach { cosine }) => {
+                violations.add(Rule::Closure, cosine.abs() - 1.0);
+                before = None;
+                continue;
+            }
+        };
+        let height = (rules.height)(&angles);
+        violations.add(
+            Rule::Clearance,
+            (rules.clearance - height) / rules.clearance,
+        );
+        for rate in before
+            .iter()
+            .flat_map(|before| rates(before, &angles, phase.interval))
+        {
+            violations.add(Rule::Rate, rate / rules.rate - 1.0);
+        }
+        before = Some(angles);
+        match source.torques(sample) {
+            Ok(row) => torques.push(row),
+            Err(_) => violations.add(Rule::Torque, 1.0),
+        }
+    }
+    let torque = norm.of(&torques, phase.interval);
+    let torque = match per {
+        Per::Phase => torque,
+        Per::Metre { advance } => torque / advance,
+    };
+    Price { torque, violations }
+}
+
+/// Speeds of ankle, knee, hip and shoulder, rad/s.
+fn rates(before: &ChainAngles, after: &ChainAngles, interval: f64) -> [f64; 4] {
+    [
+        after.ankle - before.ankle,
+        after.knee - before.knee,
+        after.hip - before.hip,
+        after.shoulder - before.shoulder,
+    ]
+    .map(|step| step.abs() / interval)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,124 @@
+use proptest::prelude::*;
+
+use super::*;
+use crate::torque_map::TorqueGap;
+
+/// THEORY.md §2.
+const NAO: ClosedChain = ClosedChain {
+    toe_to_ankle: 0.10385,
+    ankle_to_knee: 0.1029,
+    knee_to_hip: 0.1,
+    hip_to_shoulder: 0.1885,
+    shoulder_to_elbow: 0.08975,
+    span: 0.430,
+};
+
+/// The same torques everywhere.
+struct Constant([f64; 4]);
+
+impl TorqueSource for Constant {
+    fn torques(&self, _: GaitParameters) -> Result<JointTorques, TorqueGap> {
+        Ok(JointTorques::from_array(self.0))
+    }
+}
+
+fn nominal() -> Vec<GaitParameters> {
+    (0..=100)
+        .map(|k| GaitParameters {
+            knee: 0.28798,
+            hip: 0.47997,
+            upper_arm: (-30.0 - 0.6 * f64::from(k)).to_radians(),
+        })
+        .collect()
+}
+
+fn priced(samples: &[GaitParameters], clearance: f64, rate: f64, norm: &Norm) -> Price {
+    let rules = Rules {
+        clearance,
+        height: |angles: &ChainAngles| NAO.posture(angles).hip.z(),
+        rate,
+    };
+    let phase = Phase {
+        samples,
+        interval: 0.01,
+    };
+    price(
+        &NAO,
+        phase,
+        &Constant([1.0, -2.0, 0.5, 0.0]),
+        &rules,
+        norm,
+        Per::Phase,
+    )
+}
+
+const SQUARES: Norm = Norm::SquaredTorque { weights: [1.0; 4] };
+
+#[test]
+fn identity_norms_of_constant_torques() {
+    let price = |norm| priced(&nominal(), 0.001, f64::INFINITY, norm);
+    assert!(price(&SQUARES).violations.total() == 0.0);
+    assert!((price(&SQUARES).torque - 5.25).abs() < 1e-12);
+    assert!(
+        (price(&Norm::Peak {
+            rated: [1.0, 4.0, 1.0, 1.0]
+        })
+        .torque
+            - 1.0)
+            .abs()
+            < 1e-12
+    );
+    assert!((price(&Norm::Heat { nominal: [2.0; 4] }).torque - 1.3125).abs() < 1e-12);
+}
+
+/// Every sample of the nominal gait has its hip below 40 mm (THEORY.md §2: 14 to 32 mm).
+#[test]
+fn reference_the_nominal_hip_is_below_40_mm_throughout() {
+    let price = priced(&nominal(), 0.040, f64::INFINITY, &SQUARES);
+    let broken: Vec<_> = price.violations.iter().collect();
+    assert!(
+        matches!(broken[..], [(Rule::Clearance, excess)] if excess.count == 101
+        && (excess.worst - (40.0 - 13.77) / 40.0).abs() < 1e-3),
+        "{broken:?}"
+    );
+}
+
+#[test]
+fn limit_fast_joints_and_open_chains_are_graded() {
+    let slow = priced(&nominal(), 0.001, 2.0, &SQUARES).violations;
+    let slower = priced(&nominal(), 0.001, 1.0, &SQUARES).violations;
+    assert!(slower.total() > slow.total() && slow.total() >= 0.0);
+
+    // A chain folded at the hip does not reach the elbow; what it lacks is the cosine's excess.
+    let mut samples = nominal();
+    samples[50].hip = -3.0;
+    let open = priced(&samples, 0.001, f64::INFINITY, &SQUARES).violations;
+    let Err(ClosureError::OutOfReach { cosine }) = NAO.close(samples[50]) else {
+        panic!("the folded chain closes");
+    };
+    let excess = cosine.abs() - 1.0;
+    let only = Excess {
+        count: 1,
+        sum: excess,
+        worst: excess,
+    };
+    assert!(open.iter().eq([(Rule::Closure, only)]), "{open:?}");
+
+    samples[51].knee = f64::NAN;
+    let nan = priced(&samples, 0.001, f64::INFINITY, &SQUARES).violations;
+    assert!(
+        nan.total() > open.total() && nan.total().is_finite(),
+        "{nan:?}"
+    );
+}
+
+proptest! {
+    #[test]
+    fn identity_less_violation_beats_any_torque(more in 1e-9..10.0_f64, torque in 0.0..1e6_f64) {
+        let mut violations = Violations::default();
+        violations.add(Rule::Rate, more);
+        let broken = Price { torque: 0.0, violations };
+        let kept = Price { torque, violations: Violations::default() };
+        prop_assert!(kept.order(&broken).is_lt());
+    }
+}

@@ -1,0 +1,91 @@
+//! The statics as a [`TorqueSource`]: gait parameters to torques.
+
+use crate::chain::GaitParameters;
+use crate::mapping::{Mapping, MappingError};
+use crate::robot::{JointAngles, Range, Robot};
+use crate::torque_map::{JointTorques, TorqueGap, TorqueSource};
+
+use super::{HalfRobot, Rest, RestError, Stance, SymmetryError, rest};
+
+/// Torques of one robot at rest, through one mapping.
+///
+/// The commanded pose is brought within the stops, as a servo would; torques have the recordings'
+/// sign ([`Rest::load`]) and are those of the right side, as recorded.
+#[derive(Debug)]
+pub struct StaticTorques<'r> {
+    robot: &'r Robot,
+    half: HalfRobot,
+    mapping: Mapping,
+    stops: Vec<Range>,
+    stance: Stance,
+}
+
+/// Why the statics has no torques for a posture.
+#[derive(Debug, thiserror::Error)]
+pub enum StaticsError {
+    /// The robot cannot take the posture.
+    #[error(transparent)]
+    Mapping(#[from] MappingError),
+    /// The pose has no rest.
+    #[error(transparent)]
+    Rest(#[from] RestError),
+}
+
+impl<'r> StaticTorques<'r> {
+    /// A source; `stops` hold in the order of the robot's joints.
+    ///
+    /// # Errors
+    /// [`SymmetryError`] where the robot is no mirrored one.
+    pub fn new(
+        robot: &'r Robot,
+        mapping: Mapping,
+        stops: &[Range],
+        stance: Stance,
+    ) -> Result<Self, SymmetryError> {
+        Ok(Self {
+            robot,
+            half: HalfRobot::of(robot)?,
+            mapping,
+            stops: stops.to_vec(),
+            stance,
+        })
+    }
+
+    /// The commanded joint angles of a posture, within the stops.
+    ///
+    /// # Errors
+    /// [`TorqueGap::Closure`] or, from the mapping, [`TorqueGap::Source`].
+    pub fn command(&self, at: GaitParameters) -> Result<JointAngles, TorqueGap> {
+        let chain = self.mapping.chain().close(at)?;
+        let joints = self
+            .mapping
+            .joint_angles(self.robot, &chain)
+            .map_err(|error| source(error.into()))?;
+        let within = joints.as_slice().iter().zip(&self.stops);
+        let clamped = within.map(|(angle, stop)| angle.clamp(stop.lower, stop.upper));
+        Ok(JointAngles::from_vec(clamped.collect()))
+    }
+
+    /// All that is known of a posture at rest.
+    ///
+    /// # Errors
+    /// [`TorqueGap`].
+    pub fn rest(&self, at: GaitParameters) -> Result<Rest, TorqueGap> {
+        let command = self.command(at)?;
+        rest(self.robot, &self.half, &command, self.stance).map_err(|error| source(error.into()))
+    }
+}
+
+impl TorqueSource for StaticTorques<'_> {
+    fn torques(&self, at: GaitParameters) -> Result<JointTorques, TorqueGap> {
+        let rest = self.rest(at)?;
+        let joints = self.robot.chain.right.pitch_joints();
+        Ok(JointTorques::from_array(
+            joints.map(|joint| rest.load(joint)),
+        ))
+    }
+}
+
+fn source(error: StaticsError) -> TorqueGap {
+    TorqueGap::Source(Box::new(error))
+}
