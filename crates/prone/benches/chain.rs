@@ -23,12 +23,12 @@ const PARAMETERS: GaitParameters = GaitParameters {
     upper_arm: -0.9,
 };
 
-#[divan::bench]
+#[divan::bench(sample_count = 500, sample_size = 1000)]
 fn close(bencher: divan::Bencher) {
     bencher.bench(|| CHAIN.close(black_box(PARAMETERS)));
 }
 
-#[divan::bench]
+#[divan::bench(sample_count = 500, sample_size = 1000)]
 fn posture(bencher: divan::Bencher) {
     let angles = CHAIN
         .close(PARAMETERS)
@@ -36,7 +36,7 @@ fn posture(bencher: divan::Bencher) {
     bencher.bench(|| CHAIN.posture(black_box(&angles)));
 }
 
-#[divan::bench]
+#[divan::bench(sample_count = 500, sample_size = 1000)]
 fn reference_sin_cos(bencher: divan::Bencher) {
     bencher.bench(|| black_box(PARAMETERS.upper_arm).sin_cos());
 }

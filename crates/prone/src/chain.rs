@@ -154,16 +154,16 @@ impl ClosedChain {
         let k2 = -l3 * sin_knee - l4 * sin_trunk;
 
         let rigid_squared = k1 * k1 + k2 * k2;
-        let cosine = (x_hat * x_hat + z_hat * z_hat - l1 * l1 - rigid_squared)
-            / (2.0 * l1 * rigid_squared.sqrt());
+        let rigid = rigid_squared.sqrt();
+        let cosine = (x_hat * x_hat + z_hat * z_hat - l1 * l1 - rigid_squared) / (2.0 * l1 * rigid);
         if !(-1.0..=1.0).contains(&cosine) {
             return Err(ClosureError::OutOfReach { cosine });
         }
         let ankle = k2.atan2(k1) - cosine.acos();
 
-        let (sin_ankle, cos_ankle) = ankle.sin_cos();
-        let k3 = l1 + k1 * cos_ankle + k2 * sin_ankle;
-        let k4 = k2 * cos_ankle - k1 * sin_ankle;
+        // With θ2 − ψ = −arccos(c): K1 cos θ2 + K2 sin θ2 = √(K1²+K2²) c, and K4 > 0.
+        let k3 = l1 + rigid * cosine;
+        let k4 = rigid * (1.0 - cosine * cosine).sqrt();
         let toe = (k4 * x_hat + k3 * z_hat).atan2(k3 * x_hat - k4 * z_hat);
 
         let shoulder = parameters.upper_arm - toe - ankle - parameters.knee - parameters.hip;
