@@ -22,9 +22,10 @@
 use serde::Deserialize;
 use toml::Spanned;
 
-use prone::gait::{Curve, CurveError, Gait, LimitsPolicy};
+use prone::gait::{Gait, LimitsPolicy};
 use prone::mapping::{ArmMode, MappingVariant};
 
+use crate::curve_table::CurveTable;
 use crate::error::{FileError, Source};
 
 /// Reads a gait from the text of a gait file; `file` is the name that errors carry.
@@ -42,7 +43,7 @@ pub fn parse(file: &str, text: &str) -> Result<Gait, FileError> {
             format!("a gait's name is made of letters, digits, - and _ (it becomes part of file names), not {name:?}"),
         ));
     }
-    let curve = |curve: CurveFile| {
+    let curve = |curve: CurveTable| {
         let span = curve.span();
         curve
             .into_curve()
@@ -72,9 +73,9 @@ struct GaitFile {
     arm: ArmName,
     #[serde(default)]
     limits: LimitsName,
-    knee: CurveFile,
-    hip: CurveFile,
-    upper_arm: CurveFile,
+    knee: CurveTable,
+    hip: CurveTable,
+    upper_arm: CurveTable,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -99,72 +100,6 @@ enum LimitsName {
     #[default]
     Refuse,
     Clamp,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum CurveFile {
-    ConstantDeg(Spanned<f64>),
-    ConstantRad(Spanned<f64>),
-    LinearDeg(Spanned<[f64; 2]>),
-    LinearRad(Spanned<[f64; 2]>),
-    PolynomialDeg(Spanned<Vec<f64>>),
-    PolynomialRad(Spanned<Vec<f64>>),
-    ThroughDeg(Spanned<Vec<(f64, f64)>>),
-    ThroughRad(Spanned<Vec<(f64, f64)>>),
-    BSplineDeg(Spanned<BSplineFile>),
-    BSplineRad(Spanned<BSplineFile>),
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct BSplineFile {
-    degree: usize,
-    control: Vec<f64>,
-}
-
-impl CurveFile {
-    /// Where the numbers stand in the file.
-    fn span(&self) -> std::ops::Range<usize> {
-        match self {
-            Self::ConstantDeg(value) | Self::ConstantRad(value) => value.span(),
-            Self::LinearDeg(ends) | Self::LinearRad(ends) => ends.span(),
-            Self::PolynomialDeg(numbers) | Self::PolynomialRad(numbers) => numbers.span(),
-            Self::ThroughDeg(points) | Self::ThroughRad(points) => points.span(),
-            Self::BSplineDeg(spline) | Self::BSplineRad(spline) => spline.span(),
-        }
-    }
-
-    fn into_curve(self) -> Result<Curve, CurveError> {
-        let radians = |degrees: Vec<f64>| degrees.into_iter().map(f64::to_radians).collect();
-        match self {
-            Self::ConstantDeg(value) => Curve::constant(value.into_inner().to_radians()),
-            Self::ConstantRad(value) => Curve::constant(value.into_inner()),
-            Self::LinearDeg(ends) => {
-                let [from, to] = ends.into_inner().map(f64::to_radians);
-                Curve::linear(from, to)
-            }
-            Self::LinearRad(ends) => {
-                let [from, to] = ends.into_inner();
-                Curve::linear(from, to)
-            }
-            Self::PolynomialDeg(numbers) => Curve::polynomial(radians(numbers.into_inner())),
-            Self::PolynomialRad(numbers) => Curve::polynomial(numbers.into_inner()),
-            Self::ThroughDeg(points) => {
-                let points = points.into_inner().into_iter();
-                Curve::through(points.map(|(s, value)| (s, value.to_radians())).collect())
-            }
-            Self::ThroughRad(points) => Curve::through(points.into_inner()),
-            Self::BSplineDeg(spline) => {
-                let BSplineFile { degree, control } = spline.into_inner();
-                Curve::b_spline(degree, radians(control))
-            }
-            Self::BSplineRad(spline) => {
-                let BSplineFile { degree, control } = spline.into_inner();
-                Curve::b_spline(degree, control)
-            }
-        }
-    }
 }
 
 impl From<MappingName> for MappingVariant {
@@ -251,12 +186,33 @@ linear_deg = [-30, -90]
 
     #[test]
     fn errors_point_at_the_place() {
-        assert_snapshot!(error("name = \"a\"\nknee = {"), @"");
-        assert_snapshot!(error(&GOOD.replace("constant_deg = 16.5", "konstant_deg = 16.5")), @"");
-        assert_snapshot!(error(&GOOD.replace("16.5", "nan")), @"");
-        assert_snapshot!(error(&GOOD.replace("\"arched\"", "\"../arched\"")), @"");
-        assert_snapshot!(error(&GOOD.replace("name =", "gravity = 2\nname =")), @"");
-        assert_snapshot!(error(&GOOD.replace("[upper_arm]\nlinear_deg = [-30, -90]\n", "")), @"");
-        assert_snapshot!(error(&format!("limits = \"stop\"{GOOD}")), @"");
+        assert_snapshot!(error("name = \"a\"\nknee = {"), @"gait.toml:2:9: unclosed inline table, expected `}`");
+        assert_snapshot!(error(&GOOD.replace("constant_deg = 16.5", "konstant_deg = 16.5")), @"gait.toml:4:1: unknown field `konstant_deg`, expected one of `constant_deg`, `constant_rad`, `linear_deg`, `linear_rad`, `polynomial_deg`, `polynomial_rad`, `through_deg`, `through_rad`, `b_spline_deg`, `b_spline_rad`");
+        assert_snapshot!(error(&GOOD.replace("16.5", "nan")), @"gait.toml:4:16: NaN is not a finite number");
+        assert_snapshot!(error(&GOOD.replace("\"arched\"", "\"../arched\"")), @r#"gait.toml:2:8: a gait's name is made of letters, digits, - and _ (it becomes part of file names), not "../arched""#);
+        assert_snapshot!(error(&GOOD.replace("name =", "gravity = 2\nname =")), @"gait.toml:2:1: unknown field `gravity`, expected one of `name`, `description`, `mapping`, `arm`, `limits`, `knee`, `hip`, `upper_arm`");
+        assert_snapshot!(error(&GOOD.replace("[upper_arm]\nlinear_deg = [-30, -90]\n", "")), @"gait.toml:1:1: missing field `upper_arm`");
+        assert_snapshot!(error(&format!("limits = \"stop\"{GOOD}")), @"gait.toml:1:10: unknown variant `stop`, expected `refuse` or `clamp`");
+    }
+
+    #[test]
+    fn overlong_arrays_and_odd_tables_point_at_the_place() {
+        let knee = |curve: &str| error(&GOOD.replace("constant_deg = 16.5", curve));
+        assert_snapshot!(knee("linear_deg = [1, 2, 3]"), @"gait.toml:4:14: invalid length 3, expected an array of exactly 2 values");
+        assert_snapshot!(knee("through_rad = [[0, 0], [0.5, 1, 2], [1, 0]]"), @"gait.toml:4:24: invalid length 3, expected an array of exactly 2 values");
+        assert_snapshot!(knee("through_rad = [[0, 0], [1]]"), @"gait.toml:4:24: invalid length 1, expected an array of exactly 2 values");
+        assert_snapshot!(knee(""), @"gait.toml:3:1: a curve is missing; it is one of constant_deg, constant_rad, linear_deg, linear_rad, polynomial_deg, polynomial_rad, through_deg, through_rad, b_spline_deg, b_spline_rad");
+        assert_snapshot!(knee("constant_deg = 1\nlinear_deg = [1, 2]"), @"gait.toml:3:1: a curve is given twice, as constant_deg and as linear_deg; it is one of constant_deg, constant_rad, linear_deg, linear_rad, polynomial_deg, polynomial_rad, through_deg, through_rad, b_spline_deg, b_spline_rad");
+        assert_snapshot!(knee("constant_deg = 1\nconstant = 1"), @"gait.toml:5:1: unknown field `constant`, expected one of `constant_deg`, `constant_rad`, `linear_deg`, `linear_rad`, `polynomial_deg`, `polynomial_rad`, `through_deg`, `through_rad`, `b_spline_deg`, `b_spline_rad`");
+        assert_snapshot!(knee("b_spline_deg = { degree = 1, control = [0, 1], knots = [] }"), @"gait.toml:4:48: unknown field `knots`, expected `degree` or `control`");
+    }
+
+    #[test]
+    fn curves_that_overflow_name_a_number_of_the_file() {
+        let knee = |curve: &str| error(&GOOD.replace("constant_deg = 16.5", curve));
+        assert_snapshot!(knee("linear_rad = [-1e308, 1.5e308]"), @"gait.toml:4:14: numbers as large as 1.5e308 make the curve overflow");
+        assert_snapshot!(knee("b_spline_rad = { degree = 1, control = [1e308, 1.2e308, 1e308] }"), @"gait.toml:4:16: numbers as large as 1.2e308 make the curve overflow");
+        assert_snapshot!(knee("through_deg = [[0, 0], [1e-308, 900], [1, 0]]"), @"gait.toml:4:15: the curve through these points overflows between the phases 0.0 and 1e-308");
+        assert_snapshot!(knee("constant_deg = inf"), @"gait.toml:4:16: inf is not a finite number");
     }
 }

@@ -4,9 +4,12 @@
 //! behind it everything is SI and radians. Every error names file, line and column. What ships
 //! with the program is embedded ([`shipped`]).
 
+mod curve_table;
 mod error;
+mod exactly;
 pub mod gait_file;
 pub mod robot_file;
 pub mod shipped;
+pub mod text_file;
 
 pub use error::FileError;

@@ -7,10 +7,11 @@
 
 use std::collections::BTreeMap;
 
-use serde::Deserialize;
+use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
 use crate::error::{FileError, Source};
+use crate::exactly::{Exactly, exactly};
 
 /// A name with its place in the file.
 pub type Name = Spanned<String>;
@@ -76,8 +77,10 @@ pub struct SideTable {
     /// Site of the elbow's centre.
     pub elbow: Name,
     /// The two joints that point the forearm, upper one first.
+    #[serde(deserialize_with = "exactly")]
     pub forearm: [Name; 2],
     /// Unit vector along the forearm in the frame of the body that the second one moves.
+    #[serde(deserialize_with = "exactly")]
     pub forearm_direction: [f64; 3],
 }
 
@@ -86,6 +89,7 @@ pub struct SideTable {
 #[serde(deny_unknown_fields)]
 pub struct PublishedTable {
     /// l1 to l5, mm.
+    #[serde(deserialize_with = "exactly")]
     pub links_mm: [f64; 5],
     /// Toe contact to elbow, mm.
     pub span_mm: f64,
@@ -102,6 +106,7 @@ pub struct FixedArmTable {
     /// Left shoulder roll, degrees.
     pub shoulder_roll_deg: f64,
     /// The left forearm's two joints, degrees.
+    #[serde(deserialize_with = "exactly")]
     pub forearm_deg: [f64; 2],
 }
 
@@ -156,7 +161,7 @@ pub struct StudyTable {
     /// The posture before the first command.
     pub start_posture: Name,
     /// Joint ranges that replace the maker's, rad.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "ranges")]
     pub stops_rad: BTreeMap<Name, [f64; 2]>,
 }
 
@@ -172,5 +177,45 @@ impl RobotFile {
     /// An error at a name of this file; `file` and `text` as given to [`RobotFile::parse`].
     pub fn error_at<T>(file: &str, text: &str, place: &Spanned<T>, message: &str) -> FileError {
         Source { file, text }.error(place.span(), message)
+    }
+}
+
+fn ranges<'de, D: Deserializer<'de>>(table: D) -> Result<BTreeMap<Name, [f64; 2]>, D::Error> {
+    let ranges = BTreeMap::<Name, Exactly<f64, 2>>::deserialize(table)?;
+    Ok(ranges
+        .into_iter()
+        .map(|(joint, Exactly(range))| (joint, range))
+        .collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::shipped::NAO;
+
+    use super::*;
+
+    #[test]
+    fn arrays_of_another_length_are_refused_at_their_place() {
+        for (from, to) in [
+            ("[1.0, 0.0, 0.0]", "[1.0, 0.0, 0.0, 0.0]"),
+            ("[\"LElbowYaw\", \"LElbowRoll\"]", "[\"LElbowYaw\"]"),
+            ("188.5, 89.75]", "188.5, 89.75, 1]"),
+            ("[-90.0, -87.0]", "[-90.0, -87.0, 0.0]"),
+            (
+                "LHipPitch = [-1.5359, 0.8]",
+                "LHipPitch = [-1.5359, 0.8, 1.0]",
+            ),
+        ] {
+            assert!(NAO.toml.contains(from), "{from}");
+            let text = NAO.toml.replacen(from, to, 1);
+            let error = RobotFile::parse("robot.toml", &text).unwrap_err();
+            let line = text.lines().nth(error.line - 1).unwrap();
+            assert!(line.contains(to), "{error} is not about {to}");
+            assert!(
+                error.message.contains("expected an array of exactly"),
+                "{error}"
+            );
+            assert!(line[error.column - 1..].starts_with('['), "{error}");
+        }
     }
 }

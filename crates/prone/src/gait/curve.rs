@@ -34,6 +34,20 @@ pub enum CurveError {
         /// The number.
         value: f64,
     },
+    /// Numbers whose sum is beyond every `f64`, so that the curve's values may be too.
+    #[error("numbers as large as {largest:?} make the curve overflow")]
+    Overflow {
+        /// The number of the largest magnitude.
+        largest: f64,
+    },
+    /// Points between which an interpolating curve's slopes are beyond every `f64`.
+    #[error("the curve through these points overflows between the phases {from:?} and {to:?}")]
+    Steep {
+        /// Phase before the steepest part.
+        from: f64,
+        /// Phase after it.
+        to: f64,
+    },
     /// A polynomial without coefficients.
     #[error("a polynomial needs at least one coefficient")]
     NoCoefficients,
@@ -54,7 +68,7 @@ pub enum CurveError {
         points: usize,
     },
     /// The points' phases do not run from 0 to 1 in increasing order.
-    #[error("the points' phases must increase from 0 to 1; {s} does not fit")]
+    #[error("the points' phases must increase from 0 to 1; {s:?} does not fit")]
     Phases {
         /// The phase that does not fit.
         s: f64,
@@ -76,17 +90,19 @@ impl Curve {
     /// A straight line.
     ///
     /// # Errors
-    /// [`CurveError::NotFinite`].
+    /// [`CurveError::NotFinite`], [`CurveError::Overflow`].
     pub fn linear(from: f64, to: f64) -> Result<Self, CurveError> {
+        // Held against the ends, not their difference: an error names a number that was given.
+        summable(&[from, to])?;
         Self::polynomial(vec![to - from, from])
     }
 
     /// A polynomial, coefficient of the highest power first.
     ///
     /// # Errors
-    /// [`CurveError::NotFinite`], [`CurveError::NoCoefficients`].
+    /// [`CurveError::NotFinite`], [`CurveError::Overflow`], [`CurveError::NoCoefficients`].
     pub fn polynomial(coefficients: Vec<f64>) -> Result<Self, CurveError> {
-        all_finite(&coefficients)?;
+        summable(&coefficients)?;
         if coefficients.is_empty() {
             return Err(CurveError::NoCoefficients);
         }
@@ -96,9 +112,9 @@ impl Curve {
     /// A clamped uniform B-spline.
     ///
     /// # Errors
-    /// [`CurveError::NotFinite`], [`CurveError::BSpline`].
+    /// [`CurveError::NotFinite`], [`CurveError::Overflow`], [`CurveError::BSpline`].
     pub fn b_spline(degree: usize, control: Vec<f64>) -> Result<Self, CurveError> {
-        all_finite(&control)?;
+        summable(&control)?;
         if !(1..=MAX_DEGREE).contains(&degree) || control.len() <= degree {
             return Err(CurveError::BSpline {
                 degree,
@@ -111,7 +127,8 @@ impl Curve {
     /// A natural cubic spline through points (s, value).
     ///
     /// # Errors
-    /// [`CurveError::NotFinite`], [`CurveError::TooFewPoints`], [`CurveError::Phases`].
+    /// [`CurveError::NotFinite`], [`CurveError::TooFewPoints`], [`CurveError::Phases`],
+    /// [`CurveError::Steep`].
     pub fn through(points: Vec<(f64, f64)>) -> Result<Self, CurveError> {
         for &(s, value) in &points {
             all_finite(&[s, value])?;
@@ -132,6 +149,10 @@ impl Curve {
             return Err(CurveError::Phases { s });
         }
         let curvature = natural_curvature(&points);
+        if !interpolates(&points, &curvature) {
+            let (from, to) = steepest(&points);
+            return Err(CurveError::Steep { from, to });
+        }
         Ok(Self(Form::Interpolating { points, curvature }))
     }
 
@@ -151,6 +172,39 @@ fn all_finite(numbers: &[f64]) -> Result<(), CurveError> {
         Some(&value) => Err(CurveError::NotFinite { value }),
         None => Ok(()),
     }
+}
+
+/// Finite numbers whose magnitudes have a finite sum. On s ∈ [0, 1] that sum bounds every partial
+/// result of Horner's rule, and of de Boor's recursion, which averages.
+fn summable(numbers: &[f64]) -> Result<(), CurveError> {
+    all_finite(numbers)?;
+    let magnitudes = || numbers.iter().map(|number| number.abs());
+    if magnitudes().sum::<f64>().is_finite() {
+        return Ok(());
+    }
+    let largest = magnitudes().fold(0.0, f64::max);
+    let signed = numbers.iter().find(|number| number.abs() >= largest);
+    Err(CurveError::Overflow {
+        largest: signed.copied().unwrap_or(largest),
+    })
+}
+
+/// Whether [`interpolate`] stays finite: between two points the values weigh at most 1, the
+/// curvatures at most 1 (by a³ − a and the squared width, both below).
+fn interpolates(points: &[(f64, f64)], curvature: &[f64]) -> bool {
+    let ends = points.iter().zip(curvature);
+    let bounds: Vec<f64> = ends.map(|((_, v), c)| v.abs() + c.abs()).collect();
+    bounds
+        .windows(2)
+        .all(|pair| (pair[0] + pair[1]).is_finite())
+}
+
+/// The phases between which the points rise or fall fastest.
+fn steepest(points: &[(f64, f64)]) -> (f64, f64) {
+    let slope = |pair: &[(f64, f64)]| ((pair[1].1 - pair[0].1) / (pair[1].0 - pair[0].0)).abs();
+    let pairs = points.windows(2);
+    let steepest = pairs.max_by(|a, b| slope(a).total_cmp(&slope(b)));
+    steepest.map_or((0.0, 1.0), |pair| (pair[0].0, pair[1].0))
 }
 
 #[expect(
@@ -290,5 +344,57 @@ mod tests {
         assert!(Curve::through(vec![(0.0, 1.0)]).is_err());
         assert!(Curve::through(vec![(0.0, 1.0), (0.5, 1.0)]).is_err());
         assert!(Curve::through(vec![(0.0, 1.0), (0.7, 1.0), (0.7, 1.0), (1.0, 2.0)]).is_err());
+    }
+
+    #[test]
+    fn curves_that_overflow_are_refused_with_a_number_that_was_given() {
+        let largest = |curve: Result<Curve, CurveError>| match curve {
+            Err(CurveError::Overflow { largest }) => largest,
+            other => panic!("{other:?}"),
+        };
+        let same = |a: f64, b: f64| assert_eq!(a.to_bits(), b.to_bits());
+        same(largest(Curve::linear(-1e308, 1e308)), -1e308);
+        same(
+            largest(Curve::polynomial(vec![1.0, 1.5e308, 1e308])),
+            1.5e308,
+        );
+        same(largest(Curve::b_spline(1, vec![f64::MAX; 2])), f64::MAX);
+        for points in [
+            vec![(0.0, 0.0), (0.5, 1e308), (0.75, -1e308), (1.0, 0.0)],
+            vec![(0.0, -1e308), (0.5, 0.0), (0.75, 1.0), (1.0, -1e308)],
+            vec![(0.0, 0.0), (0.5, 0.0), (0.75, 1e308), (1.0, 1e308)],
+        ] {
+            let refused = Curve::through(points.clone()).unwrap_err();
+            let CurveError::Steep { from, to } = refused else {
+                panic!("{refused:?}");
+            };
+            assert!(points.iter().any(|&(s, _)| s.to_bits() == from.to_bits()));
+            assert!(points.iter().any(|&(s, _)| s.to_bits() == to.to_bits()));
+        }
+        let near = Curve::through(vec![(0.0, 0.0), (1e-308, 9.0), (1.0, 0.0)]);
+        let message = near.unwrap_err().to_string();
+        assert!(
+            message.ends_with("between the phases 0.0 and 1e-308"),
+            "{message}"
+        );
+    }
+
+    proptest! {
+        #[test]
+        fn whatever_is_accepted_is_finite(
+            numbers in prop::collection::vec(prop_oneof![-1.7e308..1.7e308_f64, -2.0..2.0_f64], 2..6),
+            s in 0.0..=1.0_f64,
+        ) {
+            let last = (numbers.len() - 1) as f64;
+            let points = numbers.iter().enumerate().map(|(k, &v)| (k as f64 / last, v)).collect();
+            for curve in [
+                Curve::linear(numbers[0], numbers[1]),
+                Curve::polynomial(numbers.clone()),
+                Curve::b_spline(1, numbers.clone()),
+                Curve::through(points),
+            ] {
+                prop_assert!(curve.map_or(0.0, |curve| curve.value(s)).is_finite());
+            }
+        }
     }
 }
