@@ -26,8 +26,12 @@
 
 mod forearm;
 mod geometry;
+mod kinematics;
 
 pub use geometry::{GeometryError, SideGeometry};
+pub use kinematics::check_kinematics;
+
+use std::f64::consts::TAU;
 
 use glam::{DQuat, DVec3};
 
@@ -111,6 +115,18 @@ pub enum MappingError {
         /// The robot's name.
         robot: String,
     },
+    /// The robot's own kinematics do not follow the planar chain.
+    #[error(
+        "the {side} {point} leaves the sagittal chain by {off_mm:.3} mm when the joints move: its joints and sites are not those of one limb, or left and right differ"
+    )]
+    DoesNotClose {
+        /// `left` or `right`.
+        side: &'static str,
+        /// The first point, from the toe on, that is off.
+        point: &'static str,
+        /// By how much, mm.
+        off_mm: f64,
+    },
     /// The elbow's two hinges cannot point the forearm forward.
     #[error("the forearm cannot point forward: its hinges miss the direction by {miss:.4}")]
     ForearmOutOfReach {
@@ -190,15 +206,8 @@ impl Mapping {
         robot: &Robot,
         chain: &ChainAngles,
     ) -> Result<JointAngles, MappingError> {
-        let mut joints = JointAngles::zero(robot);
+        let mut joints = self.limb_angles(robot, chain);
         for (index, (side, layout)) in self.sides.iter().zip(robot.chain.sides()).enumerate() {
-            let [_, zero_knee, zero_hip] = side.geometry.zero_angles;
-            let sign = side.geometry.pitch_signs;
-            joints[layout.ankle] = sign[0] * (chain.ankle - side.ankle_zero);
-            joints[layout.knee] = sign[1] * (chain.knee - zero_knee);
-            joints[layout.hip] = sign[2] * (chain.hip - zero_hip);
-            joints[layout.shoulder] = -sign[3] * (chain.shoulder - side.shoulder_zero);
-            joints[layout.shoulder_roll] = side.roll;
             let forearm = if let Some(fixed) = self.fixed_forearm {
                 fixed[index]
             } else {
@@ -212,6 +221,22 @@ impl Mapping {
         Ok(joints)
     }
 
+    /// Equations (1) and (2) and the roll, in (−π, π]; all other joints, the forearms' included,
+    /// at zero.
+    fn limb_angles(&self, robot: &Robot, chain: &ChainAngles) -> JointAngles {
+        let mut joints = JointAngles::zero(robot);
+        for (side, layout) in self.sides.iter().zip(robot.chain.sides()) {
+            let [_, zero_knee, zero_hip] = side.geometry.zero_angles;
+            let sign = side.geometry.pitch_signs;
+            joints[layout.ankle] = wrap(sign[0] * (chain.ankle - side.ankle_zero));
+            joints[layout.knee] = wrap(sign[1] * (chain.knee - zero_knee));
+            joints[layout.hip] = wrap(sign[2] * (chain.hip - zero_hip));
+            joints[layout.shoulder] = wrap(-sign[3] * (chain.shoulder - side.shoulder_zero));
+            joints[layout.shoulder_roll] = side.roll;
+        }
+        joints
+    }
+
     /// Chain angles of the left side's joints: the inverse of [`Mapping::joint_angles`].
     ///
     /// θ1 is passive: it follows from the elbow being on the ground (equation (2) of
@@ -223,10 +248,10 @@ impl Mapping {
         let sign = side.geometry.pitch_signs;
         let lying = ChainAngles {
             toe: 0.0,
-            ankle: sign[0] * joints[layout.ankle] + side.ankle_zero,
-            knee: sign[1] * joints[layout.knee] + zero_knee,
-            hip: sign[2] * joints[layout.hip] + zero_hip,
-            shoulder: -sign[3] * joints[layout.shoulder] + side.shoulder_zero,
+            ankle: wrap(sign[0] * joints[layout.ankle] + side.ankle_zero),
+            knee: wrap(sign[1] * joints[layout.knee] + zero_knee),
+            hip: wrap(sign[2] * joints[layout.hip] + zero_hip),
+            shoulder: wrap(-sign[3] * joints[layout.shoulder] + side.shoulder_zero),
         };
         let elbow = self.chain.posture(&lying).elbow;
         ChainAngles {
@@ -267,6 +292,12 @@ impl Side {
         let target = arm.inverse() * forward_in_root;
         forearm::point(geometry.forearm_axes, geometry.forearm_zero, target, ranges)
     }
+}
+
+/// The same angle in (−π, π]; NaN stays NaN.
+fn wrap(angle: f64) -> f64 {
+    let turns = (angle / TAU - 0.5).ceil();
+    angle - turns * TAU
 }
 
 #[cfg(test)]

@@ -20,6 +20,8 @@ pub struct SideGeometry {
     pub shoulder_axis: DVec3,
     /// Unit axis of the shoulder roll.
     pub roll_axis: DVec3,
+    /// A point of the roll axis, seen from the shoulder pitch centre, metres.
+    pub roll_centre: DVec3,
     /// Sign of the roll that spreads the upper arm outwards.
     pub outward_sign: f64,
     /// Shoulder to elbow, metres.
@@ -48,6 +50,14 @@ pub enum GeometryError {
         from: &'static str,
         /// The other end.
         to: &'static str,
+    },
+    /// A hinge of the forearm that cannot change where the forearm points.
+    #[error("{joint} does not point the forearm: it turns about {along}")]
+    ForearmHinge {
+        /// The joint's name.
+        joint: String,
+        /// What its axis is parallel to.
+        along: &'static str,
     },
     /// No roll gives the projected upper arm asked for.
     #[error(
@@ -115,12 +125,25 @@ impl SideGeometry {
         }
 
         let roll_axis = axis(side.shoulder_roll);
+        let roll_centre = centre(side.shoulder_roll) - centres[4];
         let upper_arm_zero = poses.point(side.elbow).metres() - centres[4];
         let outward = |roll: f64| {
-            let elbow = DQuat::from_axis_angle(roll_axis, roll) * upper_arm_zero;
-            elbow.y * centres[4].y.signum()
+            rolled(upper_arm_zero, roll_axis, roll_centre, roll).y * centres[4].y.signum()
         };
         let forearm_body = robot.joints[side.forearm[1].0].body;
+        let forearm_axes = side.forearm.map(axis);
+        let forearm_zero = poses.of(forearm_body).rotate(side.forearm_direction);
+        for (along, direction) in [
+            ("the forearm itself", forearm_zero),
+            ("the axis of the hinge above it", forearm_axes[0]),
+        ] {
+            if forearm_axes[1].cross(direction).length() < 1e-6 {
+                return Err(GeometryError::ForearmHinge {
+                    joint: robot.joints[side.forearm[1].0].name.clone(),
+                    along,
+                });
+            }
+        }
         Ok(Self {
             links,
             zero_angles: [
@@ -132,22 +155,23 @@ impl SideGeometry {
             pitch_signs,
             shoulder_axis: axis(side.shoulder),
             roll_axis,
+            roll_centre,
             outward_sign: if outward(0.1) >= outward(-0.1) {
                 1.0
             } else {
                 -1.0
             },
             upper_arm_zero,
-            forearm_axes: side.forearm.map(axis),
-            forearm_zero: poses.of(forearm_body).rotate(side.forearm_direction),
+            forearm_axes,
+            forearm_zero,
         })
     }
 
     /// l5 and absolute zero angle of the upper arm, projected on the sagittal plane, for an
     /// outward roll, rad.
     pub fn upper_arm(&self, outward: f64) -> (f64, f64) {
-        let roll = DQuat::from_axis_angle(self.roll_axis, self.outward_sign * outward);
-        let elbow = roll * self.upper_arm_zero;
+        let roll = self.outward_sign * outward;
+        let elbow = rolled(self.upper_arm_zero, self.roll_axis, self.roll_centre, roll);
         (elbow.x.hypot(elbow.z), elbow.z.atan2(elbow.x))
     }
 
@@ -201,4 +225,9 @@ impl SideGeometry {
                 .signum()
         })
     }
+}
+
+/// `point` turned by `angle`, rad, about the unit `axis` through `centre`.
+fn rolled(point: DVec3, axis: DVec3, centre: DVec3, angle: f64) -> DVec3 {
+    centre + DQuat::from_axis_angle(axis, angle) * (point - centre)
 }

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::chain::GaitParameters;
-use crate::frames::{Ground, Root, Transform};
+use crate::frames::{Ground, Point, Root, Transform};
 use crate::robot::testing::two_armed;
 
 const VARIANTS: [MappingVariant; 2] = [MappingVariant::Exact, MappingVariant::Original];
@@ -37,6 +37,96 @@ fn an_upper_arm_too_long_to_project_is_refused() {
     robot.chain.projected_upper_arm = 0.2;
     let error = Mapping::new(&robot, MappingVariant::Exact, ArmMode::Fixed).unwrap_err();
     assert!(error.to_string().contains("200.00 mm"), "{error}");
+}
+
+/// A toe site in front of the ankle and above it: θ2⁰ is more than half a turn, and the standing
+/// pose is still all joints at zero.
+#[test]
+fn joint_angles_stay_within_half_a_turn() {
+    let mut robot = two_armed();
+    for height in [0.2, -0.2] {
+        for forward in [0.2, -0.2] {
+            let foot = robot.chain.left.toe.0;
+            let poses = robot.zero_pose();
+            let pose = poses.of(foot);
+            let toe = pose.rotation().inverse() * DVec3::new(forward, 0.0, height);
+            robot.chain.left.toe.1 = Point::new(toe);
+            robot.chain.right.toe.1 = Point::new(toe);
+            let mapping =
+                Mapping::new(&robot, MappingVariant::Exact, ArmMode::FlatForearm).unwrap();
+            let standing = mapping.chain_angles(&robot, &JointAngles::zero(&robot));
+            assert!(standing.ankle.abs() <= TAU / 2.0, "{standing:?}");
+            let joints = mapping.limb_angles(&robot, &standing);
+            let side = &robot.chain.left;
+            for id in side.pitch_joints() {
+                assert!(joints[id].abs() < 1e-12, "{}", joints[id]);
+            }
+            check_kinematics(&robot).unwrap();
+        }
+    }
+}
+
+#[test]
+fn wrapping_keeps_half_a_turn_and_nan() {
+    let half = TAU / 2.0;
+    for (angle, wrapped) in [
+        (half, half),
+        (-half, half),
+        (1.5 * TAU, half),
+        (-7.0, TAU - 7.0),
+    ] {
+        assert!((wrap(angle) - wrapped).abs() < 1e-12, "{angle}");
+    }
+    assert!(wrap(f64::NAN).is_nan());
+}
+
+#[test]
+fn kinematics_that_leave_the_chain_are_refused() {
+    check_kinematics(&two_armed()).unwrap();
+    let refused = |change: fn(&mut Robot)| {
+        let mut robot = two_armed();
+        change(&mut robot);
+        check_kinematics(&robot).unwrap_err()
+    };
+    for (change, side, point) in [
+        // The elbow's site beyond the hinges that point the forearm.
+        (
+            (|robot| {
+                let hand = robot.joints[robot.chain.left.forearm[1].0].body;
+                robot.chain.left.elbow = (hand, Point::new(DVec3::new(0.01, 0.0, 0.02)));
+            }) as fn(&mut Robot),
+            "left",
+            "elbow",
+        ),
+        // One leg 1 mm longer than the other.
+        (
+            |robot| {
+                let shin = robot.joints[robot.chain.right.ankle.0].body;
+                let pose = &mut robot.bodies[shin.0].parent_from_body;
+                *pose = Transform::new(pose.rotation(), pose.origin().metres() * 1.01);
+            },
+            "right",
+            "toe",
+        ),
+        // A knee that another joint's name stands for.
+        (
+            |robot| robot.chain.left.knee = robot.chain.right.knee,
+            "left",
+            "ankle",
+        ),
+    ] {
+        let error = refused(change);
+        let MappingError::DoesNotClose {
+            side: s,
+            point: p,
+            off_mm,
+        } = error
+        else {
+            panic!("{error}");
+        };
+        assert_eq!((s, p), (side, point), "{off_mm} mm");
+        assert!(off_mm > 0.1);
+    }
 }
 
 /// The pose of the root over the ground: pitched, then shifted so that the toe is at the origin.

@@ -71,7 +71,9 @@ impl Builder {
             DVec3::new(0.0, 0.12 * left, 0.14),
             DVec3::NEG_Y,
         );
-        let (upper, shoulder_roll) = self.hinge("roll", pitch, DVec3::ZERO, DVec3::Z * left);
+        // The roll axis misses the pitch centre, as in arms whose shoulder is no ball.
+        let at_roll = DVec3::new(0.02, 0.0, 0.01);
+        let (upper, shoulder_roll) = self.hinge("roll", pitch, at_roll, DVec3::Z * left);
         let at_elbow = DVec3::new(0.12, 0.01 * left, -0.03);
         let (yawed, yaw) = self.hinge("yaw", upper, at_elbow, DVec3::X * left);
         let (forearm, bend) = self.hinge("bend", yawed, DVec3::ZERO, DVec3::Z * left);
