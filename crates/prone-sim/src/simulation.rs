@@ -190,13 +190,12 @@ impl<'w> Simulation<'w> {
         self.steps
     }
 
+    /// What the ground carries: parts of the robot that press on one another do not count.
     fn add_contacts(&self, sums: &mut [f64; 4]) {
         for (index, contact) in self.data.contact().iter().enumerate() {
-            let group = contact
-                .geom
-                .iter()
-                .find_map(|&geom| self.world.geom_groups[usize::try_from(geom).ok()?]);
-            if let Some(group) = group {
+            let group = |geom| self.world.geom_groups[usize::try_from(geom).ok()?];
+            let [one, other] = contact.geom.map(group);
+            if let Some(group) = one.xor(other) {
                 let [normal, ..] = self.data.contact_force(index);
                 sums[group_index(group)] += normal;
             }

@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
+use mujoco_rs::mujoco_c::mjNGAIN;
 use mujoco_rs::prelude::*;
-use mujoco_rs::wrappers::mj_editing::MjtLimited;
+use mujoco_rs::wrappers::mj_editing::{MjsGeom, MjtGeomInertia, MjtLimited};
 
-use prone::robot::{BodyId, ContactGroup, JointId, Range, Robot};
+use prone::robot::{BodyId, ContactGroup, Joint, Range, Robot};
 
 use crate::engine_log;
 use crate::load::LoadedRobot;
@@ -98,38 +99,14 @@ fn compile(loaded: &LoadedRobot, regime: Regime, stops: &[Range]) -> Result<MjMo
     engine_log::silence();
     let robot = loaded.robot();
     let mut spec = MjSpec::from_xml_string(loaded.mjcf())?;
-
-    let option = spec.option_mut();
-    option.timestep = regime::TIME_STEP;
-    option.integrator = MjtIntegrator::mjINT_IMPLICITFAST as i32;
-    option.solver = MjtSolver::mjSOL_NEWTON as i32;
-    option.cone = MjtCone::mjCONE_ELLIPTIC as i32;
-    option.impratio = regime.impratio;
-    // A diverged run is an error of ours; the engine would restart it in silence.
-    option.disableflags |= MjtDisableBit::mjDSBL_AUTORESET as i32;
-
+    *spec.option_mut() = options(regime);
     let [torsional, rolling] = UNUSED_FRICTION;
     let friction = [regime.friction, torsional, rolling];
     for geom in spec.geom_iter_mut() {
-        *geom.friction_mut() = friction;
+        set_contact(geom, friction);
     }
-    let floor = spec.world_body_mut().add_geom();
-    floor
-        .with_name("floor")
-        .with_type(MjtGeomBase::mjGEOM_PLANE)
-        .with_size([FLOOR_HALF_LENGTH, FLOOR_HALF_LENGTH, 0.1])
-        // The robot's geoms touch whatever offers itself (contype 1), never one another.
-        .with_contype(1)
-        .with_conaffinity(1)
-        .with_friction(friction)
-        .with_solref(regime::SOLREF)
-        .with_solimp(regime::SOLIMP);
-
-    for (index, (joint, stop)) in robot.joints.iter().zip(stops).enumerate() {
-        debug_assert_eq!(robot.joint(&joint.name), Some(JointId(index)));
-        if let Some(hinge) = spec.joint_mut(&joint.name) {
-            hinge.with_range([stop.lower, stop.upper]);
-        }
+    add_floor(&mut spec, friction);
+    for joint in &robot.joints {
         let limit = match regime.effort {
             Effort::Published => joint.effort_limit,
             Effort::Uniform(limit) => limit,
@@ -138,13 +115,94 @@ fn compile(loaded: &LoadedRobot, regime: Regime, stops: &[Range]) -> Result<MjMo
             Servo::Robot => joint.servo_gain,
             Servo::Uniform(gain) => gain,
         };
-        spec.add_actuator()
-            .with_name(&joint.name)
-            .with_target(&joint.name)
-            .with_trntype(MjtTrn::mjTRN_JOINT)
-            .with_forcerange([-limit, limit])
-            .with_forcelimited(MjtLimited::mjLIMITED_TRUE)
-            .set_to_velocity(gain);
+        add_servo(&mut spec, joint, gain, limit);
     }
-    spec.compile()
+    let mut model = spec.compile()?;
+    // In the compiled model angles are radians, whatever unit the text has.
+    for (index, stop) in stops.iter().enumerate() {
+        // The engine's joint 0 is the free one.
+        let joint = index + 1;
+        debug_assert_eq!(
+            model.id_to_name(MjtObjBase::mjOBJ_JOINT, joint),
+            Some(robot.joints[index].name.as_str())
+        );
+        model.jnt_range_mut()[joint] = [stop.lower, stop.upper];
+    }
+    Ok(model)
+}
+
+/// All that the model's `<option>` could say, replaced.
+fn options(regime: Regime) -> MjOption {
+    MjOption {
+        timestep: regime::TIME_STEP,
+        gravity: [0.0, 0.0, -regime::GRAVITY],
+        integrator: MjtIntegrator::mjINT_IMPLICITFAST as i32,
+        solver: MjtSolver::mjSOL_NEWTON as i32,
+        cone: MjtCone::mjCONE_ELLIPTIC as i32,
+        impratio: regime.impratio,
+        // A diverged run is an error of ours; the engine would restart it in silence.
+        disableflags: MjtDisableBit::mjDSBL_AUTORESET as i32,
+        enableflags: 0,
+        ..MjOption::default()
+    }
+}
+
+/// What a regime says about the contacts of a geom; `solref` and `solimp` are the geom's own.
+fn set_contact(geom: &mut MjsGeom, friction: [f64; 3]) {
+    geom.with_friction(friction)
+        .with_condim(3)
+        .with_priority(0)
+        .with_margin(0.0)
+        .with_gap(0.0)
+        .with_surfacevel([0.0; 6])
+        .with_adhesion(0.0);
+}
+
+/// A level plane. Every property is stated: a new geom starts from the model's `<default>`.
+fn add_floor(spec: &mut MjSpec, friction: [f64; 3]) {
+    // Without a name, so that it cannot clash with one in the model.
+    let floor = spec.world_body_mut().add_geom();
+    set_contact(floor, friction);
+    floor.alt_mut().switch_quat();
+    floor
+        .with_type(MjtGeomBase::mjGEOM_PLANE)
+        .with_size([FLOOR_HALF_LENGTH, FLOOR_HALF_LENGTH, 0.1])
+        .with_pos([0.0; 3])
+        .with_quat([1.0, 0.0, 0.0, 0.0])
+        .with_fromto([f64::NAN; 6]) // unset
+        // The robot's geoms touch whatever offers itself (contype 1), never one another.
+        .with_contype(1)
+        .with_conaffinity(1)
+        .with_solmix(1.0)
+        .with_solref(regime::SOLREF)
+        .with_solimp(regime::SOLIMP)
+        .with_mass(f64::NAN) // unset
+        .with_typeinertia(MjtGeomInertia::mjINERTIA_VOLUME)
+        .with_fluid_ellipsoid(0.0)
+        .with_material("")
+        .with_group(0);
+}
+
+/// A velocity servo on a hinge: gain, N·m·s/rad, and largest torque, N·m. Every property is stated here too.
+fn add_servo(spec: &mut MjSpec, joint: &Joint, gain: f64, limit: f64) {
+    spec.add_actuator()
+        .with_name(&joint.name)
+        .with_target(&joint.name)
+        .with_trntype(MjtTrn::mjTRN_JOINT)
+        .with_gear([1.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+        .with_gainprm([0.0; mjNGAIN as usize])
+        .with_forcerange([-limit, limit])
+        .with_forcelimited(MjtLimited::mjLIMITED_TRUE)
+        .with_ctrllimited(MjtLimited::mjLIMITED_FALSE)
+        .with_ctrlrange([0.0; 2])
+        .with_actlimited(MjtLimited::mjLIMITED_FALSE)
+        .with_actrange([0.0; 2])
+        .with_inheritrange(0.0)
+        .with_damping([0.0; 3])
+        .with_armature(0.0)
+        .with_delay(0.0)
+        .with_nsample(0)
+        .with_actdim(-1) // follows from the kind of dynamics, which is none
+        .with_group(0)
+        .set_to_velocity(gain);
 }
