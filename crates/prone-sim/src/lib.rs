@@ -17,7 +17,7 @@ pub mod settled;
 mod simulation;
 mod world;
 
-pub use load::{LoadError, LoadedRobot, RobotFiles};
+pub use load::{LoadError, LoadedRobot, ModelProblem, RobotFiles};
 pub use regime::Regime;
 pub use simulation::{Placement, Simulation, SimulationError, Snapshot, StepMeans};
 pub use world::{World, WorldError};

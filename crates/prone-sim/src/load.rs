@@ -2,35 +2,31 @@
 //!
 //! The engine compiles the MJCF, so a model means here what it means there. Bodies, hinges,
 //! inertias, shapes and sites come from the model; the chain, drives, contact groups and postures
-//! from the TOML file, whose every name must be in the model.
+//! from the TOML file, whose every name must be in the model. What the two say is checked, numbers
+//! and the robot's own kinematics included, so that a robot that loads can crawl.
 
+mod bounds;
+mod files;
+mod foreign;
+mod limbs;
+mod markup;
 mod model;
+mod problem;
 mod tables;
 
-use std::fmt;
-use std::path::{Path, PathBuf};
+pub use files::RobotFiles;
+pub use problem::ModelProblem;
+
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use mujoco_rs::prelude::*;
-use sha2::{Digest, Sha256};
 
 use prone::robot::Robot;
 use prone_files::FileError;
 use prone_files::robot_file::RobotFile;
-use prone_files::shipped::RobotSource;
 
 use crate::engine_log::{self, one_line};
-
-/// The two texts of a robot and where they came from.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct RobotFiles {
-    /// The folder, as shown to a user.
-    pub folder: String,
-    /// `robot.toml`.
-    pub toml: String,
-    /// The MJCF model that it names.
-    pub mjcf: String,
-}
 
 /// A robot, checked, with the model text that worlds are built from.
 #[derive(Debug, Clone)]
@@ -53,6 +49,9 @@ pub enum LoadError {
     /// `robot.toml` is malformed, or names what the model lacks.
     #[error(transparent)]
     Toml(#[from] FileError),
+    /// The model's text holds what is not read here.
+    #[error(transparent)]
+    Markup(FileError),
     /// The engine refuses the model; its message carries the line.
     #[error("{file}: {message}")]
     Mjcf {
@@ -71,99 +70,6 @@ pub enum LoadError {
     },
 }
 
-/// What a valid model lacks to be a crawling robot.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum ModelProblem {
-    /// There is not exactly one body in the world, or it does not float.
-    #[error("the world must hold exactly one body, with a free joint; {found}")]
-    Root {
-        /// What was found instead.
-        found: String,
-    },
-    /// A body moves by more than one joint, or by one that is no hinge.
-    #[error("body {body} must be fixed or move by one hinge")]
-    NotHinged {
-        /// The body's name.
-        body: String,
-    },
-    /// A hinge without limits.
-    #[error("joint {joint} has no range")]
-    Unlimited {
-        /// The joint's name.
-        joint: String,
-    },
-    /// A body or joint without a name.
-    #[error("{kind} number {index} has no name")]
-    Nameless {
-        /// `body` or `joint`.
-        kind: &'static str,
-        /// Its index in the model.
-        index: usize,
-    },
-    /// A colliding shape of a kind whose extent is not known.
-    #[error("geom {geom}: only spheres, capsules, ellipsoids, cylinders and boxes may collide")]
-    Shape {
-        /// The geom's name.
-        geom: String,
-    },
-    /// Servos belong to the program.
-    #[error("the model has {count} actuators; servos are added by the program, from robot.toml")]
-    Actuators {
-        /// How many.
-        count: i64,
-    },
-}
-
-impl RobotFiles {
-    /// A robot that ships with the program.
-    pub fn shipped(source: &RobotSource) -> Self {
-        Self {
-            folder: source.folder.to_owned(),
-            toml: source.toml.to_owned(),
-            mjcf: source.mjcf.to_owned(),
-        }
-    }
-
-    /// Reads `robot.toml` and the model that it names from a folder.
-    ///
-    /// # Errors
-    /// [`LoadError::Read`], [`LoadError::Toml`].
-    pub fn read(folder: &Path) -> Result<Self, LoadError> {
-        let read = |path: PathBuf| {
-            std::fs::read_to_string(&path).map_err(|source| LoadError::Read { path, source })
-        };
-        let toml_path = folder.join("robot.toml");
-        let toml = read(toml_path.clone())?;
-        let table = RobotFile::parse(&toml_path.display().to_string(), &toml)?;
-        let mjcf = read(folder.join(table.model.get_ref()))?;
-        Ok(Self {
-            folder: folder.display().to_string(),
-            toml,
-            mjcf,
-        })
-    }
-
-    /// SHA-256 of both texts, hexadecimal.
-    pub fn hash(&self) -> String {
-        let mut hasher = Sha256::new();
-        hasher.update(self.toml.as_bytes());
-        hasher.update([0]);
-        hasher.update(self.mjcf.as_bytes());
-        hasher
-            .finalize()
-            .iter()
-            .fold(String::new(), |mut hex, byte| {
-                use fmt::Write as _;
-                write!(hex, "{byte:02x}").expect("writing to a string does not fail");
-                hex
-            })
-    }
-
-    fn toml_name(&self) -> String {
-        format!("{}/robot.toml", self.folder)
-    }
-}
-
 impl LoadedRobot {
     /// Compiles and checks a robot.
     ///
@@ -173,7 +79,9 @@ impl LoadedRobot {
         engine_log::silence();
         let toml_name = files.toml_name();
         let table = RobotFile::parse(&toml_name, &files.toml)?;
+        files::check_model_name(&toml_name, &files.toml, &table.model)?;
         let mjcf_name = format!("{}/{}", files.folder, table.model.get_ref());
+        markup::check(&mjcf_name, &files.mjcf).map_err(LoadError::Markup)?;
 
         let refused = |error: MjEditError| LoadError::Mjcf {
             file: mjcf_name.clone(),

@@ -8,7 +8,8 @@ use mujoco_rs::prelude::*;
 use prone::frames::{Geom, Link, Point, Transform};
 use prone::robot::{Body, BodyId, ContactGroup, Joint, JointId, Range, Shape, Solid};
 
-use super::ModelProblem;
+use super::problem::ModelProblem;
+use super::{bounds, foreign};
 
 /// What the model says; drives and contact groups are still to be filled in.
 pub(super) struct Parts {
@@ -20,9 +21,6 @@ pub(super) struct Parts {
 
 /// The engine's body 0 is the world and its joint 0 the free one: ours start after them.
 pub(super) fn read(model: &MjModel) -> Result<Parts, ModelProblem> {
-    if model.nu() != 0 {
-        return Err(ModelProblem::Actuators { count: model.nu() });
-    }
     check_root(model)?;
     let mut joints = Vec::new();
     let mut bodies = Vec::new();
@@ -30,6 +28,8 @@ pub(super) fn read(model: &MjModel) -> Result<Parts, ModelProblem> {
         let joint = read_joint(model, index, &mut joints)?;
         bodies.push(read_body(model, index, joint)?);
     }
+    foreign::check(model)?;
+    bounds::check(model)?;
     Ok(Parts {
         bodies,
         joints,
@@ -125,9 +125,7 @@ fn read_shapes(model: &MjModel) -> Result<Vec<Shape>, ModelProblem> {
         if model.geom_contype()[index] == 0 && model.geom_conaffinity()[index] == 0 {
             continue;
         }
-        let geom = model
-            .id_to_name(MjtObjBase::mjOBJ_GEOM, index)
-            .map_or_else(|| format!("number {index}"), str::to_owned);
+        let geom = label(model, MjtObjBase::mjOBJ_GEOM, index);
         let [x, y, z] = model.geom_size()[index];
         let solid = match kind {
             MjtGeomBase::mjGEOM_SPHERE => Solid::Sphere { radius: x },
@@ -175,6 +173,13 @@ fn read_sites(model: &MjModel) -> BTreeMap<String, (BodyId, Point<Link>)> {
         }
     }
     sites
+}
+
+/// The name of something that may have none.
+pub(super) fn label(model: &MjModel, kind: MjtObjBase, index: usize) -> String {
+    model
+        .id_to_name(kind, index)
+        .map_or_else(|| format!("number {index}"), str::to_owned)
 }
 
 fn name(

@@ -8,18 +8,19 @@ use strsim::levenshtein;
 
 use prone::chain::ClosedChain;
 use prone::frames::{Link, Point};
-use prone::mapping::{ArmMode, Mapping, MappingVariant};
+use prone::mapping::{self, MappingError};
 use prone::robot::{
     BodyId, ChainLayout, ContactGroup, FixedArm, JointAngles, JointId, Motor, PublishedChain,
     Range, Robot, SideLayout, StudySetup,
 };
 use prone_files::FileError;
 use prone_files::robot_file::{
-    ChainTable, ContactTable, DriveTable, MotorTable, Name, PublishedTable, RobotFile, SideTable,
-    StudyTable,
+    ChainTable, ContactTable, DriveTable, FixedArmTable, MotorTable, Name, PublishedTable,
+    RobotFile, SideTable, StudyTable,
 };
 
 use super::model::Parts;
+use super::{bounds, limbs};
 
 /// The TOML file that errors point into, and the model's name for their text.
 pub(super) struct Tables<'a> {
@@ -44,9 +45,11 @@ impl Tables<'_> {
             study,
         };
         robot.postures = self.postures(&table.postures, &robot)?;
+        limbs::check(&robot, &table.chain)
+            .map_err(|(place, message)| self.error(place, message))?;
         // The chain must be a sagittal one and its arm projectable, or nothing else works.
-        Mapping::new(&robot, MappingVariant::Exact, ArmMode::FlatForearm)
-            .map_err(|error| self.error(&table.chain.left.toe, error))?;
+        mapping::check_kinematics(&robot)
+            .map_err(|error| self.error(place_of(&error, &table.chain), error))?;
         Ok(robot)
     }
 
@@ -101,16 +104,38 @@ impl Tables<'_> {
             .ok_or_else(|| self.unknown(name, "site", parts.sites.keys().map(String::as_str)))
     }
 
-    /// A positive, finite number.
-    fn positive(&self, place: &Name, what: &str, value: f64) -> Result<f64, FileError> {
-        if value > 0.0 && value.is_finite() {
-            Ok(value)
-        } else {
-            Err(self.error(
-                place,
-                format!("{what} must be positive and finite, not {value}"),
-            ))
+    /// A positive number up to `largest`.
+    fn positive(
+        &self,
+        place: &Name,
+        what: &str,
+        value: f64,
+        largest: f64,
+    ) -> Result<f64, FileError> {
+        if value > 0.0 && value <= largest {
+            return Ok(value);
         }
+        let message = if value > largest && value.is_finite() {
+            format!("{what} must be at most {largest}, not {value}")
+        } else {
+            format!("{what} must be positive and finite, not {value}")
+        };
+        Err(self.error(place, message))
+    }
+
+    /// A length in mm, as metres.
+    fn length(&self, place: &Name, what: &str, mm: f64) -> Result<f64, FileError> {
+        Ok(self.positive(place, what, mm, bounds::LENGTH * 1e3)? * 1e-3)
+    }
+
+    /// An angle in degrees, as radians.
+    fn angle(&self, place: &Name, what: &str, degrees: f64) -> Result<f64, FileError> {
+        let radians = degrees.to_radians();
+        if radians.abs() <= bounds::ANGLE {
+            return Ok(radians);
+        }
+        let message = format!("{what} must be within -360..360, not {degrees}");
+        Err(self.error(place, message))
     }
 
     fn group_bodies(&self, contacts: &ContactTable, parts: &mut Parts) -> Result<(), FileError> {
@@ -171,9 +196,10 @@ impl Tables<'_> {
                     return Err(self.error(name, again));
                 }
                 let joint = &mut parts.joints[id.0];
-                joint.effort_limit = self.positive(name, "effort_nm", drive.effort_nm)?;
-                joint.speed_limit = self.positive(name, "speed_rad_s", drive.speed_rad_s)?;
-                joint.servo_gain = self.positive(name, "servo_gain_nms", drive.servo_gain_nms)?;
+                let number = |what, value, largest| self.positive(name, what, value, largest);
+                joint.effort_limit = number("effort_nm", drive.effort_nm, bounds::EFFORT)?;
+                joint.speed_limit = number("speed_rad_s", drive.speed_rad_s, bounds::SPEED)?;
+                joint.servo_gain = number("servo_gain_nms", drive.servo_gain_nms, bounds::GAIN)?;
                 joint.motor = self.motor(drive, motors)?;
             }
         }
@@ -201,40 +227,51 @@ impl Tables<'_> {
         let Some(ratio) = drive.ratio else {
             return Err(self.error(name, "a drive with a motor needs its ratio"));
         };
-        let ratio = self.positive(name, "ratio", ratio)?;
-        let at_joint = |millis: f64| millis * 1e-3 * ratio;
+        let ratio = self.positive(name, "ratio", ratio, bounds::RATIO)?;
+        let at_joint = |what, millis: f64| {
+            let shaft = self.positive(name, what, millis, bounds::SHAFT_TORQUE * 1e3)?;
+            Ok::<_, FileError>(shaft * 1e-3 * ratio)
+        };
         Ok(Some(Motor {
             ratio,
-            nominal: at_joint(self.positive(name, "nominal_mnm", motor.nominal_mnm)?),
-            stall: at_joint(self.positive(name, "stall_mnm", motor.stall_mnm)?),
+            nominal: at_joint("nominal_mnm", motor.nominal_mnm)?,
+            stall: at_joint("stall_mnm", motor.stall_mnm)?,
         }))
     }
 
     fn chain(&self, table: &ChainTable, parts: &Parts) -> Result<ChainLayout, FileError> {
         let place = &table.left.toe;
-        let fixed_arm = table.fixed_arm.as_ref().map(|fixed| FixedArm {
-            shoulder_roll: fixed.shoulder_roll_deg.to_radians(),
-            forearm: fixed.forearm_deg.map(f64::to_radians),
-        });
         let arm = table.projected_upper_arm_mm;
         Ok(ChainLayout {
             left: self.side(&table.left, parts)?,
             right: self.side(&table.right, parts)?,
-            span: self.positive(place, "span_mm", table.span_mm)? * 1e-3,
-            projected_upper_arm: self.positive(place, "projected_upper_arm_mm", arm)? * 1e-3,
+            span: self.length(place, "span_mm", table.span_mm)?,
+            projected_upper_arm: self.length(place, "projected_upper_arm_mm", arm)?,
             published: match &table.published {
                 None => None,
                 Some(published) => Some(self.published(place, published)?),
             },
-            fixed_arm,
+            fixed_arm: match &table.fixed_arm {
+                None => None,
+                Some(fixed) => Some(self.fixed_arm(place, fixed)?),
+            },
+        })
+    }
+
+    fn fixed_arm(&self, place: &Name, table: &FixedArmTable) -> Result<FixedArm, FileError> {
+        let angle = |degrees| self.angle(place, "every one of forearm_deg", degrees);
+        let [upper, lower] = table.forearm_deg;
+        Ok(FixedArm {
+            shoulder_roll: self.angle(place, "shoulder_roll_deg", table.shoulder_roll_deg)?,
+            forearm: [angle(upper)?, angle(lower)?],
         })
     }
 
     fn published(&self, place: &Name, table: &PublishedTable) -> Result<PublishedChain, FileError> {
         for length in table.links_mm {
-            self.positive(place, "every one of links_mm", length)?;
+            self.length(place, "every one of links_mm", length)?;
         }
-        let span = self.positive(place, "span_mm", table.span_mm)? * 1e-3;
+        let span = self.length(place, "span_mm", table.span_mm)?;
         let [l1, l2, l3, l4, l5] = table.links_mm.map(|mm| mm * 1e-3);
         Ok(PublishedChain {
             chain: ClosedChain {
@@ -245,8 +282,8 @@ impl Tables<'_> {
                 shoulder_to_elbow: l5,
                 span,
             },
-            ankle_offset: table.ankle_offset_deg.to_radians(),
-            shoulder_roll: table.shoulder_roll_deg.to_radians(),
+            ankle_offset: self.angle(place, "ankle_offset_deg", table.ankle_offset_deg)?,
+            shoulder_roll: self.angle(place, "shoulder_roll_deg", table.shoulder_roll_deg)?,
         })
     }
 
@@ -286,8 +323,9 @@ impl Tables<'_> {
         let mut stops = Vec::new();
         for (name, &[lower, upper]) in &table.stops_rad {
             let id = self.joint(name, parts)?;
-            if !(lower < upper && lower.is_finite() && upper.is_finite()) {
-                let message = format!("a range needs lower < upper, not {lower}..{upper}");
+            if !(lower < upper && lower >= -bounds::ANGLE && upper <= bounds::ANGLE) {
+                let message =
+                    format!("a range needs -2π <= lower < upper <= 2π, not {lower}..{upper}");
                 return Err(self.error(name, message));
             }
             stops.push((id, Range { lower, upper }));
@@ -310,8 +348,9 @@ impl Tables<'_> {
                 let id = robot.joint(name.get_ref()).ok_or_else(|| {
                     self.unknown(name, "joint", robot.joints.iter().map(|j| j.name.as_str()))
                 })?;
-                if !angle.is_finite() {
-                    let message = format!("{} cannot be at {angle} rad", name.get_ref());
+                if angle.is_nan() || angle.abs() > bounds::ANGLE {
+                    let joint = name.get_ref();
+                    let message = format!("{joint} must be within -2π..2π rad, not {angle}");
                     return Err(self.error(name, message));
                 }
                 angles[id] = angle;
@@ -319,5 +358,25 @@ impl Tables<'_> {
             postures.insert(posture.clone(), angles);
         }
         Ok(postures)
+    }
+}
+
+/// The name in the file that a refused chain is about.
+fn place_of<'a>(error: &MappingError, table: &'a ChainTable) -> &'a Name {
+    let MappingError::DoesNotClose { side, point, .. } = error else {
+        return &table.left.toe;
+    };
+    let table = if *side == "left" {
+        &table.left
+    } else {
+        &table.right
+    };
+    match *point {
+        "ankle" => &table.ankle,
+        "knee" => &table.knee,
+        "hip" => &table.hip,
+        "shoulder" => &table.shoulder,
+        "elbow" => &table.elbow,
+        _ => &table.toe,
     }
 }

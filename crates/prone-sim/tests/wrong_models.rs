@@ -1,0 +1,365 @@
+//! The shipped NAO with one change that no robot has: refused with its place.
+
+mod changed;
+
+use std::fs;
+
+use changed::{SAME, changed};
+use prone_files::shipped::NAO;
+use prone_sim::{LoadError, LoadedRobot, RobotFiles};
+
+/// The message for one change in `robot.xml`.
+fn model(from: &str, to: &str) -> String {
+    message(changed(SAME, (from, to)))
+}
+
+/// The message for one change in `robot.toml`.
+fn table(from: &str, to: &str) -> String {
+    message(changed((from, to), SAME))
+}
+
+fn message(files: RobotFiles) -> String {
+    LoadedRobot::load(files).unwrap_err().to_string()
+}
+
+/// `from`, `to`, message.
+type Refusal = (&'static str, &'static str, &'static str);
+
+const MODELS: &[Refusal] = &[
+    (
+        "<worldbody>",
+        "<worldbody><geom name=\"ramp\" type=\"box\" size=\"1 1 .1\"/>",
+        "nao/robot.xml: geom ramp belongs to the world; the floor is added by the program",
+    ),
+    (
+        "</equality>",
+        "<connect name=\"hook\" body1=\"torso\" anchor=\"0 0 .1\"/></equality>",
+        "nao/robot.xml: equality hook ties the robot to the world",
+    ),
+    (
+        "</equality>",
+        "<weld body1=\"world\" body2=\"LFoot\"/></equality>",
+        "nao/robot.xml: equality number 1 ties the robot to the world",
+    ),
+    (
+        "</worldbody>\n\n  <equality>",
+        "<site name=\"hook\"/></worldbody><equality><weld name=\"held\" site1=\"imu\" site2=\"hook\"/>",
+        "nao/robot.xml: equality held ties the robot to the world",
+    ),
+    (
+        "<equality>",
+        "<contact><exclude name=\"through\" body1=\"world\" body2=\"LFoot\"/></contact><equality>",
+        "nao/robot.xml: exclude through keeps a body from touching the world",
+    ),
+    (
+        "name=\"LKneePitch\" axis=\"0 1 0\"",
+        "name=\"LKneePitch\" actuatorfrcrange=\"-1 1\" axis=\"0 1 0\"",
+        "nao/robot.xml: joint LKneePitch has actuatorfrcrange; what servos do is set by the program, from robot.toml",
+    ),
+    (
+        "name=\"LKneePitch\" axis=\"0 1 0\"",
+        "name=\"LKneePitch\" actuatorgravcomp=\"true\" axis=\"0 1 0\"",
+        "nao/robot.xml: joint LKneePitch has actuatorgravcomp; what servos do is set by the program, from robot.toml",
+    ),
+    (
+        "name=\"LKneePitch\" axis=\"0 1 0\"",
+        "name=\"LKneePitch\" ref=\".1\" axis=\"0 1 0\"",
+        "nao/robot.xml: joint LKneePitch has ref 0.1 rad; it must be 0: the zero pose is the standing one",
+    ),
+    (
+        "contype=\"0\" conaffinity=\"1\"",
+        "contype=\"0\" conaffinity=\"0\"",
+        "nao/robot.xml: no geom can touch the floor: none has conaffinity 1 or contype 1",
+    ),
+    (
+        "contype=\"0\" conaffinity=\"1\"",
+        "contype=\"2\" conaffinity=\"2\"",
+        "nao/robot.xml: no geom can touch the floor: none has conaffinity 1 or contype 1",
+    ),
+    (
+        "<default>",
+        "<size memory=\"1000G\"/><default>",
+        "nao/robot.xml:25:3: <size> is not read here: the engine finds its sizes itself",
+    ),
+    (
+        "<asset>",
+        "<asset>\n<hfield name=\"h\" nrow=\"-1\" ncol=\"2\" size=\"1 1 1 1\"/>",
+        "nao/robot.xml:35:1: <hfield> is not read here: robots are made of primitives",
+    ),
+    (
+        "<asset>",
+        "<asset>\n<texture name=\"t\" type=\"2d\" builtin=\"flat\" width=\"-1\" height=\"-1\"/>",
+        "nao/robot.xml:35:1: <texture> is not read here: robots are made of primitives",
+    ),
+    (
+        "<asset>",
+        "<asset><mesh file=\"a.stl\"/>",
+        "nao/robot.xml:34:10: <mesh> is not read here: robots are made of primitives",
+    ),
+    (
+        "<asset>",
+        "<asset><skin file=\"a.skn\"/>",
+        "nao/robot.xml:34:10: <skin> is not read here: robots are made of primitives",
+    ),
+    (
+        "<asset>",
+        "<include file=\"b.xml\"/><asset>",
+        "nao/robot.xml:34:3: <include> is not read here: a model is one file",
+    ),
+    (
+        "<asset>",
+        "<actuator><motor joint=\"HeadYaw\"/></actuator><asset>",
+        "nao/robot.xml:34:3: <actuator> is not read here: servos are added by the program, from robot.toml",
+    ),
+    (
+        "<asset>",
+        "<keyframe/><asset>",
+        "nao/robot.xml:34:3: <keyframe> is not read here: postures are in robot.toml",
+    ),
+    (
+        "<asset>",
+        "<sensor/><asset>",
+        "nao/robot.xml:34:3: <sensor> is not read here: a robot needs none",
+    ),
+    (
+        "<mujoco model",
+        "\0<mujoco model",
+        "nao/robot.xml:22:1: a zero byte in a text file",
+    ),
+    (
+        "</mujoco>",
+        "",
+        "nao/robot.xml:1:1: the root node was opened but never closed",
+    ),
+    (
+        "<mujoco model",
+        "<!DOCTYPE m [<!ENTITY a \"b\">]><mujoco model",
+        "nao/robot.xml:1:1: XML with DTD detected",
+    ),
+    (
+        "name=\"LThighShell\" type=\"capsule\" size=\".038\"",
+        "name=\"LThighShell\" type=\"capsule\" size=\"nan\"",
+        "nao/robot.xml:93:53: size: NaN is outside -1e9..1e9",
+    ),
+    (
+        "mass=\"1.04956\"",
+        "mass=\"inf\"",
+        "nao/robot.xml:46:17: mass: inf is outside -1e9..1e9",
+    ),
+    (
+        "mass=\"1.04956\"",
+        "mass=\"1e12\"",
+        "nao/robot.xml:46:17: mass: 1000000000000 is outside -1e9..1e9",
+    ),
+    (
+        "mass=\"1.04956\"",
+        "mass=\"10495.6\"",
+        "nao/robot.xml: body torso: mass 10495.6 kg is outside -1000..1000 kg",
+    ),
+    (
+        "body name=\"LTibia\" pos=\"0 0 -.1\"",
+        "body name=\"LTibia\" pos=\"0 0 -100\"",
+        "nao/robot.xml: body LTibia: pos -100 m is outside -10..10 m",
+    ),
+    (
+        "name=\"LThighShell\" type=\"capsule\" size=\".038\"",
+        "name=\"LThighShell\" type=\"capsule\" size=\"38\"",
+        "nao/robot.xml: geom LThighShell: size 38 m is outside -10..10 m",
+    ),
+    (
+        "site name=\"LToe\" pos=\".0935 0 -.04519\"",
+        "site name=\"LToe\" pos=\"93.5 0 -45.19\"",
+        "nao/robot.xml: site LToe: pos 93.5 m is outside -10..10 m",
+    ),
+    (
+        "body name=\"RTibia\" pos=\"0 0 -.1\"",
+        "body name=\"RTibia\" pos=\"0 0 -.11\"",
+        "nao/robot.toml:24:7: the right toe leaves the sagittal chain by 10.000 mm when the joints move: its joints and sites are not those of one limb, or left and right differ",
+    ),
+];
+
+#[test]
+fn models_that_are_no_robot_are_refused() {
+    for (from, to, expected) in MODELS {
+        assert_eq!(&model(from, to), expected, "{to}");
+    }
+}
+
+const TABLES: &[Refusal] = &[
+    (
+        "model = \"robot.xml\"",
+        "model = \"../robot.xml\"",
+        "nao/robot.toml:4:9: model must be the name of a file beside this one, not \"../robot.xml\"",
+    ),
+    (
+        "model = \"robot.xml\"",
+        "model = \"/etc/passwd\"",
+        "nao/robot.toml:4:9: model must be the name of a file beside this one, not \"/etc/passwd\"",
+    ),
+    (
+        "model = \"robot.xml\"",
+        "model = \"..\"",
+        "nao/robot.toml:4:9: model must be the name of a file beside this one, not \"..\"",
+    ),
+    (
+        "model = \"robot.xml\"",
+        "model = \"\"",
+        "nao/robot.toml:4:9: model must be the name of a file beside this one, not \"\"",
+    ),
+    (
+        "model = \"robot.xml\"",
+        "model = \"a\\u0000b\"",
+        "nao/robot.toml:4:9: model must be the name of a file beside this one, not \"a\\0b\"",
+    ),
+    (
+        "knee = \"LKneePitch\"\nhip = \"LHipPitch\"",
+        "knee = \"LHipPitch\"\nhip = \"LKneePitch\"",
+        "nao/robot.toml:15:8: knee LHipPitch does not hang on hip LKneePitch",
+    ),
+    (
+        "knee = \"LKneePitch\"",
+        "knee = \"LHipPitch\"",
+        "nao/robot.toml:16:7: joint LHipPitch is the left knee already",
+    ),
+    (
+        "knee = \"RKneePitch\"",
+        "knee = \"LKneePitch\"",
+        "nao/robot.toml:26:8: joint LKneePitch is the left knee already",
+    ),
+    (
+        "knee = \"LKneePitch\"\nhip = \"LHipPitch\"",
+        "knee = \"LKneePitch\"\nhip = \"HeadPitch\"",
+        "nao/robot.toml:15:8: knee LKneePitch does not hang on hip HeadPitch",
+    ),
+    (
+        "shoulder = \"LShoulderPitch\"",
+        "shoulder = \"HeadPitch\"",
+        "nao/robot.toml:18:17: shoulder_roll LShoulderRoll does not hang on shoulder HeadPitch",
+    ),
+    (
+        "toe = \"LToe\"",
+        "toe = \"LKnee\"",
+        "nao/robot.toml:13:7: toe LKnee does not hang on ankle LAnklePitch",
+    ),
+    (
+        "toe = \"LToe\"",
+        "toe = \"RToe\"",
+        "nao/robot.toml:13:7: toe RToe does not hang on ankle LAnklePitch",
+    ),
+    (
+        "elbow = \"LElbow\"\n",
+        "elbow = \"LShoulder\"\n",
+        "nao/robot.toml:19:9: elbow LShoulder does not hang on shoulder_roll LShoulderRoll",
+    ),
+    (
+        "elbow = \"LElbow\"\n",
+        "elbow = \"LHip\"\n",
+        "nao/robot.toml:19:9: elbow LHip does not hang on shoulder_roll LShoulderRoll",
+    ),
+    (
+        "[\"LElbowYaw\", \"LElbowRoll\"]\nforearm_direction",
+        "[\"LElbowRoll\", \"LElbowYaw\"]\nforearm_direction",
+        "nao/robot.toml:20:26: lower forearm joint LElbowYaw does not hang on upper forearm joint LElbowRoll",
+    ),
+    (
+        "[\"LElbowYaw\", \"LElbowRoll\"]\nforearm_direction",
+        "[\"LElbowYaw\", \"LWristYaw\"]\nforearm_direction",
+        "nao/robot.toml:13:7: LWristYaw does not point the forearm: it turns about the forearm itself",
+    ),
+    (
+        "[\"LElbowYaw\", \"LElbowRoll\"]\nforearm_direction",
+        "[\"RElbowYaw\", \"LElbowRoll\"]\nforearm_direction",
+        "nao/robot.toml:31:12: joint RElbowYaw is the left upper forearm already",
+    ),
+    (
+        "knee = \"LKneePitch\"",
+        "knee = \"LAnkleRoll\"",
+        "nao/robot.toml:14:9: ankle LAnklePitch does not hang on knee LAnkleRoll",
+    ),
+    (
+        "span_mm = 430.0",
+        "span_mm = 430000.0",
+        "nao/robot.toml:13:7: span_mm must be at most 10000, not 430000",
+    ),
+    (
+        "span_mm = 430.0",
+        "span_mm = nan",
+        "nao/robot.toml:13:7: span_mm must be positive and finite, not NaN",
+    ),
+    (
+        "ankle_offset_deg = 60.0",
+        "ankle_offset_deg = 6000.0",
+        "nao/robot.toml:13:7: ankle_offset_deg must be within -360..360, not 6000",
+    ),
+    (
+        "forearm_deg = [-90.0, -87.0]",
+        "forearm_deg = [inf, -87.0]",
+        "nao/robot.toml:13:7: every one of forearm_deg must be within -360..360, not inf",
+    ),
+    (
+        "effort_nm = 1.547",
+        "effort_nm = 1547.0",
+        "nao/robot.toml:71:11: effort_nm must be at most 1000, not 1547",
+    ),
+    (
+        "speed_rad_s = 8.27",
+        "speed_rad_s = inf",
+        "nao/robot.toml:71:11: speed_rad_s must be positive and finite, not inf",
+    ),
+    (
+        "servo_gain_nms = 20.0",
+        "servo_gain_nms = 2e9",
+        "nao/robot.toml:71:11: servo_gain_nms must be at most 10000, not 2000000000",
+    ),
+    (
+        "ratio = 150.27",
+        "ratio = 1e9",
+        "nao/robot.toml:75:9: ratio must be at most 100000, not 1000000000",
+    ),
+    (
+        "nominal_mnm = 6.2",
+        "nominal_mnm = 6.2e9",
+        "nao/robot.toml:75:9: nominal_mnm must be at most 1000000, not 6200000000",
+    ),
+    (
+        "LHipPitch = [-1.5359, 0.8]",
+        "LHipPitch = [-88.0, 45.0]",
+        "nao/robot.toml:148:1: a range needs -2π <= lower < upper <= 2π, not -88..45",
+    ),
+    (
+        "LHipPitch = 0.4712",
+        "LHipPitch = 27.0",
+        "nao/robot.toml:152:1: LHipPitch must be within -2π..2π rad, not 27",
+    ),
+    (
+        "LHipPitch = 0.4712",
+        "LHipPitch = nan",
+        "nao/robot.toml:152:1: LHipPitch must be within -2π..2π rad, not NaN",
+    ),
+];
+
+#[test]
+fn tables_that_fit_no_robot_are_refused() {
+    for (from, to, expected) in TABLES {
+        assert_eq!(&table(from, to), expected, "{to}");
+    }
+}
+
+#[test]
+fn folders_that_hold_no_two_texts_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let read = || match RobotFiles::read(folder.path()) {
+        Err(LoadError::Read { path, source }) => {
+            let file = path.file_name().unwrap().display().to_string();
+            format!("{file}: {source}")
+        }
+        other => panic!("{other:?}"),
+    };
+    fs::create_dir(folder.path().join("robot.toml")).unwrap();
+    assert_eq!(read(), "robot.toml: it is not a regular file");
+    fs::remove_dir(folder.path().join("robot.toml")).unwrap();
+    fs::write(folder.path().join("robot.toml"), NAO.toml).unwrap();
+    let mjcf = fs::File::create(folder.path().join("robot.xml")).unwrap();
+    mjcf.set_len((16 << 20) + 1).unwrap();
+    assert_eq!(read(), "robot.xml: it is larger than 16 MiB");
+}
