@@ -95,9 +95,6 @@ impl Regime {
 /// study's costs by about one percent.
 pub const TIME_STEP: f64 = 0.0025;
 
-/// Standard acceleration of gravity to the engine's three digits, m/s².
-pub const GRAVITY: f64 = 9.81;
-
 /// Length of one control step, s: the recordings' commands and torques change every 50 ms.
 pub const CONTROL_STEP: f64 = 0.05;
 

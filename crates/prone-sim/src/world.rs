@@ -7,6 +7,7 @@ use mujoco_rs::prelude::*;
 use mujoco_rs::wrappers::mj_editing::{MjsGeom, MjtGeomInertia, MjtLimited};
 
 use prone::robot::{BodyId, ContactGroup, Joint, Range, Robot};
+use prone::statics::GRAVITY;
 
 use crate::engine_log;
 use crate::load::LoadedRobot;
@@ -135,7 +136,7 @@ fn compile(loaded: &LoadedRobot, regime: Regime, stops: &[Range]) -> Result<MjMo
 fn options(regime: Regime) -> MjOption {
     MjOption {
         timestep: regime::TIME_STEP,
-        gravity: [0.0, 0.0, -regime::GRAVITY],
+        gravity: [0.0, 0.0, -GRAVITY],
         integrator: MjtIntegrator::mjINT_IMPLICITFAST as i32,
         solver: MjtSolver::mjSOL_NEWTON as i32,
         cone: MjtCone::mjCONE_ELLIPTIC as i32,
