@@ -29,8 +29,6 @@ mod open;
 
 pub use open::{OpenChain, OpenChainError};
 
-use std::f64::consts::TAU;
-
 use crate::frames::{Ground, Point};
 
 /// Link lengths of the closed chain and the distance it spans, metres.
@@ -169,10 +167,10 @@ impl ClosedChain {
         let shoulder = parameters.upper_arm - toe - ankle - parameters.knee - parameters.hip;
         Ok(ChainAngles {
             toe,
-            ankle: wrap(ankle),
+            ankle,
             knee: parameters.knee,
             hip: parameters.hip,
-            shoulder: wrap(shoulder),
+            shoulder,
         })
     }
 
@@ -217,17 +215,6 @@ impl ChainPosture {
             self.shoulder,
             self.elbow,
         ]
-    }
-}
-
-/// The same angle in (−π, π], for angles less than a turn outside it.
-fn wrap(angle: f64) -> f64 {
-    if angle > TAU / 2.0 {
-        angle - TAU
-    } else if angle <= -TAU / 2.0 {
-        angle + TAU
-    } else {
-        angle
     }
 }
 
