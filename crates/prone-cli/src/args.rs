@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Parser, Subcommand};
 
+use prone::gait::PhaseDuration;
+
 /// Makes humanoid robots crawl where they cannot walk.
 #[derive(Debug, Parser)]
 #[command(
@@ -61,7 +63,9 @@ Examples:
   prone reproduce --durations 1,5,10 --out /tmp/short
   prone reproduce --json | jq .ratios
 
-The folder appears when all is done, and replaces an earlier result in one step. All its files but
+The folder appears when all is done, and replaces an earlier result in one step. What is replaced:
+an empty folder, or one that holds nothing but files that its run.json lists as written by prone;
+with any other file in it, it is left alone. A link is followed. All files of a result but
 timing.json are the same, byte for byte, for the same input, on any number of threads.")]
 pub(crate) struct ReproduceArgs {
     /// Result folder; made, or replaced if it holds an earlier result
@@ -72,6 +76,7 @@ pub(crate) struct ReproduceArgs {
         long,
         value_name = "LIST",
         value_delimiter = ',',
+        value_parser = seconds,
         allow_negative_numbers = true,
         default_value = "1,2,3,4,5,6,7,8,9,10"
     )]
@@ -101,10 +106,11 @@ pub(crate) struct GaitShowArgs {
     #[arg(
         long,
         value_name = "S",
-        default_value_t = 5.0,
+        default_value = "5",
+        value_parser = phase_duration,
         allow_negative_numbers = true
     )]
-    pub(crate) duration: f64,
+    pub(crate) duration: PhaseDuration,
     /// Write all 101 instants to a CSV file
     #[arg(long, value_name = "FILE")]
     pub(crate) csv: Option<PathBuf>,
@@ -128,6 +134,24 @@ pub(crate) struct RobotCheckArgs {
     /// Print everything as JSON
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+/// A number of seconds, with spaces around it or not.
+fn seconds(text: &str) -> Result<f64, String> {
+    let number = text.trim();
+    if number.is_empty() {
+        return Err("there is a comma with no number beside it".to_owned());
+    }
+    number
+        .parse()
+        .map_err(|_| "not a number of seconds".to_owned())
+}
+
+fn phase_duration(text: &str) -> Result<PhaseDuration, String> {
+    PhaseDuration::new(seconds(text)?).map_err(|_| {
+        let (shortest, longest) = (PhaseDuration::SHORTEST, PhaseDuration::LONGEST);
+        format!("a phase lasts {shortest} to {longest} s")
+    })
 }
 
 #[cfg(test)]

@@ -1,6 +1,10 @@
 //! How a command ends badly.
 
+use std::io::Write as _;
 use std::process::ExitCode;
+
+/// Exit code of a run that the user stopped.
+pub(crate) const STOPPED: u8 = 130;
 
 /// Why a command did not do what was asked.
 ///
@@ -31,21 +35,15 @@ impl Failure {
 
     /// Prints one message and gives the exit code.
     pub(crate) fn report(self) -> ExitCode {
-        match self {
-            Self::Input(error) => {
-                eprintln!("error: {error}");
-                ExitCode::from(2)
-            }
-            Self::Work(error) => {
-                eprintln!("error: {error}");
-                ExitCode::from(1)
-            }
-            Self::Stopped => {
-                eprintln!("stopped; nothing was written");
-                ExitCode::from(130)
-            }
-            Self::OutputClosed => ExitCode::SUCCESS,
-        }
+        let (message, code) = match self {
+            Self::Input(error) => (format!("error: {error}"), 2),
+            Self::Work(error) => (format!("error: {error}"), 1),
+            Self::Stopped => ("stopped; nothing was written".to_owned(), STOPPED),
+            Self::OutputClosed => return ExitCode::SUCCESS,
+        };
+        // Where nobody hears, the exit code still speaks.
+        let _ = writeln!(std::io::stderr(), "{message}");
+        ExitCode::from(code)
     }
 }
 

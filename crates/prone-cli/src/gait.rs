@@ -1,17 +1,19 @@
 //! `prone gait show`, and finding a gait by name or file.
 
-use std::fs;
 use std::io::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 
-use prone::gait::{Gait, PhaseDuration};
-use prone_files::{gait_file, shipped};
+use prone::gait::Gait;
+use prone::robot::Robot;
+use prone_files::robot_file::RobotFile;
+use prone_files::{gait_file, shipped, text_file};
+use prone_sim::LoadedRobot;
 use prone_study::gait_sheet::{self, GaitSheet};
 
-use crate::Failure;
 use crate::args::GaitShowArgs;
+use crate::{Failure, table_file};
 
 /// Every how many of the 101 instants one is printed.
 const PRINTED_EVERY: usize = 10;
@@ -29,20 +31,17 @@ pub(crate) fn find(name: &str) -> Result<Gait, Failure> {
             known.join(", ")
         )));
     }
-    let text = fs::read_to_string(path)
+    let text = text_file::read(path)
         .map_err(|error| Failure::Input(anyhow!("cannot read {name}: {error}")))?;
     gait_file::parse(name, &text).map_err(Failure::input)
 }
 
 pub(crate) fn show(args: &GaitShowArgs) -> Result<(), Failure> {
-    let duration = PhaseDuration::new(args.duration).map_err(Failure::input)?;
     let gait = find(&args.gait)?;
     let loaded = crate::robot::load(args.robot.as_deref())?;
-    let sheet = gait_sheet::of(loaded.robot(), &gait, duration).map_err(Failure::input)?;
+    let sheet = gait_sheet::of(loaded.robot(), &gait, args.duration).map_err(Failure::input)?;
     if let Some(path) = &args.csv {
-        let table = sheet.csv().map_err(Failure::work)?;
-        fs::write(path, table)
-            .map_err(|error| Failure::Input(anyhow!("cannot write {}: {error}", path.display())))?;
+        write_csv(&sheet, path, &inputs(args, &loaded))?;
     }
     let mut out = std::io::stdout().lock();
     if args.json {
@@ -50,11 +49,45 @@ pub(crate) fn show(args: &GaitShowArgs) -> Result<(), Failure> {
         writeln!(out, "{text}")?;
         return Ok(());
     }
-    print(&sheet, &mut out)?;
+    print(&sheet, loaded.robot(), &mut out)?;
     Ok(())
 }
 
-fn print(sheet: &GaitSheet, out: &mut impl std::io::Write) -> std::io::Result<()> {
+/// The files that were read.
+fn inputs(args: &GaitShowArgs, loaded: &LoadedRobot) -> Vec<PathBuf> {
+    let mut inputs = Vec::new();
+    if shipped::gait(&args.gait).is_none() {
+        inputs.push(PathBuf::from(&args.gait));
+    }
+    if let Some(folder) = &args.robot {
+        inputs.push(folder.join("robot.toml"));
+        let table = RobotFile::parse("robot.toml", &loaded.files().toml);
+        inputs.extend(table.map(|table| folder.join(table.model.get_ref())));
+    }
+    inputs
+}
+
+fn write_csv(sheet: &GaitSheet, path: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {
+    if let Some(input) = table_file::same_file(path, inputs) {
+        return Err(Failure::Input(anyhow!(
+            "--csv {} would overwrite {}, which was read",
+            path.display(),
+            input.display()
+        )));
+    }
+    let table = sheet.csv().map_err(Failure::work)?;
+    table_file::write(path, &table)
+        .map_err(|error| Failure::Input(anyhow!("cannot write {}: {error}", path.display())))
+}
+
+fn print(sheet: &GaitSheet, robot: &Robot, out: &mut impl std::io::Write) -> std::io::Result<()> {
+    print_table(sheet, out)?;
+    print_limits(sheet, out)?;
+    print_speeds(sheet, robot, out)?;
+    print_heights(sheet, out)
+}
+
+fn print_table(sheet: &GaitSheet, out: &mut impl std::io::Write) -> std::io::Result<()> {
     writeln!(out, "{}: {}", sheet.gait, sheet.description)?;
     writeln!(
         out,
@@ -82,6 +115,10 @@ fn print(sheet: &GaitSheet, out: &mut impl std::io::Write) -> std::io::Result<()
         let [ankle, _, hip, _] = row.centres_mm;
         writeln!(out, "{ankle:>9.1}{hip:>7.1}{:>7.1}", row.top_mm)?;
     }
+    Ok(())
+}
+
+fn print_limits(sheet: &GaitSheet, out: &mut impl std::io::Write) -> std::io::Result<()> {
     writeln!(out, "\nlimits")?;
     if sheet.clamps.is_empty() {
         writeln!(out, "  all joints stay inside theirs")?;
@@ -98,8 +135,49 @@ fn print(sheet: &GaitSheet, out: &mut impl std::io::Write) -> std::io::Result<()
             clamp.largest_deg
         )?;
     }
-    let (joint, speed) = &sheet.fastest;
-    writeln!(out, "  fastest: {joint}, {speed:.2} rad/s")?;
+    Ok(())
+}
+
+fn print_speeds(
+    sheet: &GaitSheet,
+    robot: &Robot,
+    out: &mut impl std::io::Write,
+) -> std::io::Result<()> {
+    let limit = |name: &str| {
+        let joint = robot.joints.iter().find(|joint| joint.name == name);
+        joint.map_or(f64::NAN, |joint| joint.speed_limit)
+    };
+    let (fastest, speed) = &sheet.fastest;
+    if !fastest.is_empty() {
+        let limit = limit(fastest);
+        writeln!(
+            out,
+            "  fastest: {fastest}, {speed:.2} rad/s; its limit is {limit:.2} rad/s"
+        )?;
+    }
+    // Limits differ, so that it need not be the fastest that passes its own.
+    for (index, joint) in sheet.joints.iter().enumerate() {
+        let (speed, limit) = (top_speed(sheet, index), limit(joint));
+        if speed > limit {
+            writeln!(
+                out,
+                "    {joint} would need {speed:.2} rad/s, above its limit of {limit:.2} rad/s: it will lag behind"
+            )?;
+        }
+    }
+    Ok(())
+}
+
+/// Largest speed asked of a joint between two instants, rad/s.
+fn top_speed(sheet: &GaitSheet, joint: usize) -> f64 {
+    let speeds = sheet.rows.windows(2).map(|pair| {
+        let turned = pair[1].joints_rad[joint] - pair[0].joints_rad[joint];
+        turned.abs() / (pair[1].time_s - pair[0].time_s)
+    });
+    speeds.fold(0.0, f64::max)
+}
+
+fn print_heights(sheet: &GaitSheet, out: &mut impl std::io::Write) -> std::io::Result<()> {
     writeln!(out, "\nheights and stride of the planned chain")?;
     writeln!(
         out,

@@ -1,16 +1,11 @@
-//! A progress bar on a terminal, silence elsewhere; and Ctrl-C.
+//! A progress bar on a terminal, silence elsewhere.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-
-use anyhow::anyhow;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use prone_study::torque_study::Observer;
 
 use crate::Failure;
-
-/// Set by Ctrl-C.
-static STOP: AtomicBool = AtomicBool::new(false);
+use crate::interrupt;
 
 /// Progress of a study.
 pub(crate) struct Progress {
@@ -18,15 +13,8 @@ pub(crate) struct Progress {
 }
 
 impl Progress {
-    /// Shows progress in `phases` steps and lets Ctrl-C end the work before the next one; a second
-    /// Ctrl-C ends the program at once.
+    /// Shows progress in `phases` steps.
     pub(crate) fn new(phases: usize) -> Result<Self, Failure> {
-        ctrlc::set_handler(|| {
-            if STOP.swap(true, Ordering::Relaxed) {
-                std::process::exit(130);
-            }
-        })
-        .map_err(|error| Failure::Work(anyhow!("cannot listen for Ctrl-C: {error}")))?;
         // indicatif draws on standard error, and only if that is a terminal.
         let bar = ProgressBar::new(phases as u64);
         let style = ProgressStyle::with_template("{msg:<12} {bar:30} {pos}/{len}  {elapsed}")
@@ -53,6 +41,6 @@ impl Observer for Progress {
     }
 
     fn stop(&self) -> bool {
-        STOP.load(Ordering::Relaxed)
+        interrupt::requested()
     }
 }

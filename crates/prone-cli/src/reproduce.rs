@@ -6,15 +6,16 @@ use std::time::Instant;
 use anyhow::anyhow;
 use serde_json::json;
 
-use prone_study::output::{self, OutputError};
+use prone_sim::{Regime, World};
+use prone_study::output;
 use prone_study::reproduce::{self, ReproduceError, Reproduction};
 use prone_study::run_info::Program;
 use prone_study::summary::Summary;
-use prone_study::torque_study::{Observer as _, Plan, StudyError};
+use prone_study::torque_study::{Plan, StudyError};
 
-use crate::Failure;
 use crate::args::ReproduceArgs;
 use crate::progress::Progress;
+use crate::{Failure, interrupt};
 
 /// The gaits of the published study.
 const GAITS: [&str; 2] = ["nominal", "optimal"];
@@ -24,6 +25,9 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<(), Failure> {
     let plan =
         Plan::new(gaits.collect::<Result<_, _>>()?, &args.durations).map_err(Failure::input)?;
     let robot = crate::robot::load(args.robot.as_deref())?;
+    let world = World::new(&robot, Regime::TORQUE_STUDY).map_err(Failure::input)?;
+    plan.check(&world).map_err(Failure::input)?;
+    interrupt::listen()?;
     output::check(&args.out).map_err(Failure::input)?;
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(args.threads.map_or(0, usize::from))
@@ -39,12 +43,11 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<(), Failure> {
     let reproduction = pool.install(|| reproduce::run(&robot, &plan, &program, &progress));
     progress.finish();
     let mut reproduction = reproduction.map_err(failure)?;
-    if progress.stop() {
-        return Err(Failure::Stopped);
-    }
     let timing = timing(&reproduction, started, pool.current_num_threads())?;
     reproduction.artefacts.insert("timing.json".into(), timing);
-    output::publish(&args.out, &reproduction.artefacts).map_err(written)?;
+    interrupt::publish(|| {
+        output::publish(&args.out, &reproduction.artefacts).map_err(Failure::work)
+    })?;
 
     let mut out = std::io::stdout().lock();
     if args.json {
@@ -83,10 +86,6 @@ fn failure(error: ReproduceError) -> Failure {
         ) => Failure::input(error),
         _ => Failure::work(error),
     }
-}
-
-fn written(error: OutputError) -> Failure {
-    Failure::work(error)
 }
 
 fn print(summary: &Summary, out: &mut impl std::io::Write) -> std::io::Result<()> {

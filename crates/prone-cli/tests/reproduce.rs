@@ -2,9 +2,12 @@
 
 use std::collections::BTreeMap;
 use std::fs;
+use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
+
+use prone_files::shipped::NAO;
 
 fn prone(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_prone"))
@@ -41,7 +44,7 @@ fn results_are_the_same_on_any_number_of_threads_and_replace_each_other() {
         let done = prone(&[
             "reproduce",
             "--durations",
-            "0.5,1",
+            "0.5, 1",
             "--threads",
             threads,
             "--out",
@@ -118,48 +121,125 @@ fn results_are_the_same_on_any_number_of_threads_and_replace_each_other() {
 #[test]
 fn what_cannot_be_written_is_refused_before_the_work() {
     let home = tempfile::tempdir().unwrap();
-    fs::write(home.path().join("photo.jpg"), b"cat").unwrap();
+    let at = |name: &str| home.path().join(name).display().to_string();
+    fs::write(at("photo.jpg"), b"cat").unwrap();
+    symlink("nowhere", at("link")).unwrap();
     let started = Instant::now();
-    let refused = prone(&["reproduce", "--out", home.path().to_str().unwrap()]);
-    assert_eq!(refused.status.code(), Some(2));
-    let message = String::from_utf8(refused.stderr).unwrap();
-    assert!(message.contains("is not an earlier result"), "{message}");
-    let below = home.path().join("photo.jpg/result");
-    let refused = prone(&["reproduce", "--out", below.to_str().unwrap()]);
-    assert_eq!(refused.status.code(), Some(2));
-    assert_eq!(fs::read_dir(home.path()).unwrap().count(), 1);
+    for (out, expected) in [
+        (
+            at(""),
+            "is not an earlier result, so it is not replaced: it holds no run.json",
+        ),
+        (at("photo.jpg"), "is not a folder"),
+        (at("photo.jpg/result"), "Not a directory"),
+        (at("link"), "is a link to something that does not exist"),
+        ("/dev/shm".to_owned(), "is a file system of its own"),
+    ] {
+        let refused = prone(&["reproduce", "--out", &out]);
+        let message = String::from_utf8(refused.stderr).unwrap();
+        assert_eq!(refused.status.code(), Some(2), "{message}");
+        // A shared memory that is in use, or is missing, is refused for that.
+        assert!(message.contains(expected) || out == "/dev/shm", "{message}");
+    }
+    assert_eq!(fs::read_dir(home.path()).unwrap().count(), 2);
     // Far less than the work takes; only a guard against refusing after it.
-    assert!(started.elapsed() < Duration::from_secs(20));
+    assert!(started.elapsed() < Duration::from_secs(60));
 }
 
 #[test]
-fn ctrl_c_leaves_nothing_behind() {
+fn a_robot_that_cannot_follow_is_refused_before_anything_is_made() {
     let home = tempfile::tempdir().unwrap();
-    let folder = home.path().join("result");
-    let child = Command::new(env!("CARGO_BIN_EXE_prone"))
-        .args([
-            "reproduce",
-            "--threads",
-            "1",
-            "--out",
-            folder.to_str().unwrap(),
-        ])
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    std::thread::sleep(Duration::from_millis(1500));
-    let interrupted = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status()
-        .unwrap();
-    assert!(interrupted.success());
-    let ended = child.wait_with_output().unwrap();
-    assert_eq!(
-        ended.status.code(),
-        Some(130),
-        "{}",
-        String::from_utf8_lossy(&ended.stderr)
+    let robot = home.path().join("robot");
+    fs::create_dir(&robot).unwrap();
+    fs::write(robot.join("robot.xml"), NAO.mjcf).unwrap();
+    let long = NAO
+        .toml
+        .replace("links_mm = [103.85, 102.9,", "links_mm = [103.85, 302.9,");
+    assert_ne!(long, NAO.toml);
+    fs::write(robot.join("robot.toml"), long).unwrap();
+    let out = home.path().join("new/result");
+    let refused = prone(&[
+        "reproduce",
+        "--robot",
+        robot.to_str().unwrap(),
+        "--out",
+        out.to_str().unwrap(),
+    ]);
+    let message = String::from_utf8(refused.stderr).unwrap();
+    assert_eq!(refused.status.code(), Some(2), "{message}");
+    assert!(message.contains("the chain cannot close"), "{message}");
+    assert!(!home.path().join("new").exists());
+}
+
+#[test]
+fn two_runs_at_once_leave_one_whole_result_and_nothing_of_killed_ones() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path().join("new/result");
+    fs::create_dir_all(home.path().join("new/.result.partial-killed/result")).unwrap();
+    let run = |durations: &str| {
+        Command::new(env!("CARGO_BIN_EXE_prone"))
+            .args(["reproduce", "--threads", "1", "--durations", durations])
+            .args([Path::new("--out"), &folder])
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap()
+    };
+    for child in [run("0.5"), run("0.7")] {
+        let ended = child.wait_with_output().unwrap();
+        let message = String::from_utf8_lossy(&ended.stderr);
+        assert!(ended.status.success(), "{message}");
+    }
+    assert_eq!(fs::read_dir(folder.parent().unwrap()).unwrap().count(), 1);
+    let run: serde_json::Value =
+        serde_json::from_slice(&fs::read(folder.join("run.json")).unwrap()).unwrap();
+    let listed: Vec<_> = run["artefacts"].as_array().unwrap().iter().collect();
+    let found = files(&folder);
+    let found: Vec<_> = found.keys().map(|path| path.to_str().unwrap()).collect();
+    assert_eq!(listed.len(), found.len());
+    assert!(
+        listed
+            .iter()
+            .all(|name| found.contains(&name.as_str().unwrap()))
     );
-    assert_eq!(fs::read_dir(home.path()).unwrap().count(), 0);
+    let tables = found.iter().filter(|name| name.starts_with("torques/"));
+    assert_eq!(tables.count(), 2, "of one of the two runs");
+}
+
+/// Whether a process has taken a signal into its own hands, by the mask of its `/proc` entry.
+fn handles(process: u32, signal: u32) -> bool {
+    let status = fs::read_to_string(format!("/proc/{process}/status")).unwrap();
+    let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:"));
+    let mask = u64::from_str_radix(caught.unwrap().trim(), 16).unwrap();
+    mask & (1 << (signal - 1)) != 0
+}
+
+#[test]
+fn signals_leave_nothing_behind() {
+    for (name, number) in [("INT", 2), ("TERM", 15), ("HUP", 1)] {
+        let home = tempfile::tempdir().unwrap();
+        let folder = home.path().join("new/result");
+        // Whoever runs the tests may ignore signals; `env` resets that, then becomes the program.
+        let child = Command::new("env")
+            .args(["--default-signal=INT,TERM,HUP", env!("CARGO_BIN_EXE_prone")])
+            .args(["reproduce", "--threads", "1"])
+            .args([Path::new("--out"), &folder])
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        while !handles(child.id(), number) {
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        let interrupted = Command::new("kill")
+            .args(["-s", name, &child.id().to_string()])
+            .status()
+            .unwrap();
+        assert!(interrupted.success());
+        let ended = child.wait_with_output().unwrap();
+        let message = String::from_utf8_lossy(&ended.stderr);
+        assert_eq!(ended.status.code(), Some(130), "{name}: {message}");
+        assert_eq!(message, "stopped; nothing was written\n");
+        assert_eq!(fs::read_dir(home.path()).unwrap().count(), 0, "{name}");
+    }
 }

@@ -1,13 +1,19 @@
 //! A result folder that appears whole or not at all.
 
+mod earlier;
+mod staging;
+mod target;
+
 use std::collections::BTreeMap;
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use rustix::fs::{CWD, RenameFlags, renameat_with};
+use earlier::Standing;
+use staging::Staging;
+use target::{Parents, Target};
 
-/// The file by which a folder is recognised as an earlier result.
+/// The file by which a folder is recognised as an earlier result; [`publish`] adds the list of all
+/// files to it.
 pub const RUN_FILE: &str = "run.json";
 
 /// The files of a result, by path relative to its folder.
@@ -18,12 +24,14 @@ pub type Artefacts = BTreeMap<String, Vec<u8>>;
 pub enum OutputError {
     /// The folder holds something that is not an earlier result.
     #[error(
-        "{} is not empty and holds no {RUN_FILE}: it is not an earlier result, so it is not replaced",
+        "{} is not an earlier result, so it is not replaced: {stranger}",
         folder.display()
     )]
     Foreign {
         /// The folder.
         folder: PathBuf,
+        /// By what that is known.
+        stranger: String,
     },
     /// There is something of that name that is no folder.
     #[error("{} is not a folder", folder.display())]
@@ -37,6 +45,32 @@ pub enum OutputError {
         /// The path.
         folder: PathBuf,
     },
+    /// A link that leads nowhere.
+    #[error("{} is a link to something that does not exist", link.display())]
+    Dangling {
+        /// The link.
+        link: PathBuf,
+    },
+    /// A mounted file system cannot be replaced in one step.
+    #[error(
+        "{} is a file system of its own, which cannot be replaced in one step: name a folder in it",
+        folder.display()
+    )]
+    MountPoint {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// `run.json` cannot be recognised later.
+    #[error("{RUN_FILE} is not an object that names its program: {0}")]
+    Unrecorded(serde_json::Error),
+    /// Something appeared in the folder at the last instant and cannot be put back.
+    #[error("what stood at {} is not an earlier result; it is now {}", folder.display(), kept.display())]
+    Displaced {
+        /// The folder.
+        folder: PathBuf,
+        /// Where it is now.
+        kept: PathBuf,
+    },
     /// The file system refuses.
     #[error("cannot write {}: {source}", path.display())]
     Write {
@@ -47,72 +81,34 @@ pub enum OutputError {
     },
 }
 
-/// Checks that a result can be put at `folder`, by making and removing an empty one beside it.
-/// Nothing is left behind but the folders above it.
+/// Checks that a result can be put at `folder`, and removes what killed runs left beside it.
+/// Nothing is made, not even the folders above.
 ///
 /// # Errors
 /// [`OutputError`].
 pub fn check(folder: &Path) -> Result<(), OutputError> {
-    match fs::metadata(folder) {
-        Err(error) if error.kind() == io::ErrorKind::NotFound => {}
-        Err(source) => return Err(write_error(folder, source)),
-        Ok(found) if !found.is_dir() => {
-            return Err(OutputError::NotAFolder {
-                folder: folder.to_owned(),
-            });
-        }
-        Ok(_) => {
-            let mut entries = fs::read_dir(folder).map_err(|e| write_error(folder, e))?;
-            if entries.next().is_some() && !folder.join(RUN_FILE).is_file() {
-                return Err(OutputError::Foreign {
-                    folder: folder.to_owned(),
-                });
-            }
-        }
+    let target = Target::resolve(folder)?;
+    if earlier::standing(&target.folder)? == Standing::Replaceable {
+        target.check_movable()?;
     }
-    staging(folder).map(drop)
+    staging::sweep(&target);
+    staging::probe(&target)
 }
 
 /// Writes all files beside `folder` and moves them into place in one step; an earlier result is
-/// replaced.
+/// replaced. [`RUN_FILE`] must be among them.
 ///
 /// # Errors
-/// [`OutputError`]; the folder is then as it was.
+/// [`OutputError`]; the folder, and those above it, are then as they were.
 pub fn publish(folder: &Path, artefacts: &Artefacts) -> Result<(), OutputError> {
-    let staging = staging(folder)?;
-    for (name, bytes) in artefacts {
-        let path = staging.path().join(name);
-        let written = match path.parent() {
-            Some(parent) => fs::create_dir_all(parent),
-            None => Ok(()),
-        }
-        .and_then(|()| fs::write(&path, bytes));
-        written.map_err(|e| write_error(&path, e))?;
-    }
-    if folder.exists() {
-        // Exchanged, so that at no instant there is no result; the old one goes with the staging.
-        renameat_with(CWD, staging.path(), CWD, folder, RenameFlags::EXCHANGE)
-            .map_err(|e| write_error(folder, e.into()))
-    } else {
-        fs::rename(staging.path(), folder).map_err(|e| write_error(folder, e))
-    }
-}
-
-/// A hidden folder beside the target, removed when dropped, readable as the target will be.
-fn staging(folder: &Path) -> Result<tempfile::TempDir, OutputError> {
-    let name = folder.file_name().ok_or_else(|| OutputError::Nameless {
-        folder: folder.to_owned(),
-    })?;
-    let parent = match folder.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
-    fs::create_dir_all(parent).map_err(|e| write_error(parent, e))?;
-    let staging = tempfile::Builder::new()
-        .prefix(&format!(".{}.partial-", name.to_string_lossy()))
-        .permissions(std::os::unix::fs::PermissionsExt::from_mode(0o755))
-        .tempdir_in(parent);
-    staging.map_err(|e| write_error(folder, e))
+    let run_file = earlier::record(artefacts)?;
+    let target = Target::resolve(folder)?;
+    let parents = Parents::make(&target.parent)?;
+    let staging = Staging::new(&target)?;
+    staging.write(artefacts, &run_file)?;
+    staging.place(&target)?;
+    parents.keep();
+    Ok(())
 }
 
 fn write_error(path: &Path, source: io::Error) -> OutputError {
@@ -124,20 +120,34 @@ fn write_error(path: &Path, source: io::Error) -> OutputError {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+    use std::os::unix::fs::symlink;
+
     use super::*;
 
-    fn files(content: &str) -> Artefacts {
+    pub(super) fn files(content: &str) -> Artefacts {
+        let run = format!("{{\n  \"program\": \"prone\",\n  \"content\": \"{content}\"\n}}\n");
         let mut files = Artefacts::new();
-        files.insert(RUN_FILE.to_owned(), content.as_bytes().to_vec());
+        files.insert(RUN_FILE.to_owned(), run.into_bytes());
         files.insert("sub/table.csv".to_owned(), b"a,b\n".to_vec());
         files
     }
 
-    fn entries(folder: &Path) -> Vec<String> {
+    pub(super) fn entries(folder: &Path) -> Vec<String> {
         let names = fs::read_dir(folder).unwrap();
-        names
+        let mut names: Vec<_> = names
             .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-            .collect()
+            .collect();
+        names.sort();
+        names
+    }
+
+    fn is_foreign(folder: &Path, reason: &str) -> bool {
+        let error = check(folder).unwrap_err();
+        let foreign = matches!(&error, OutputError::Foreign { stranger, .. } if stranger == reason);
+        assert!(foreign, "{error}");
+        // Neither is it replaced when it appears after the check.
+        publish(folder, &files("late")).is_err()
     }
 
     #[test]
@@ -145,14 +155,22 @@ mod tests {
         let home = tempfile::tempdir().unwrap();
         let folder = home.path().join("deep/result");
         check(&folder).unwrap();
-        assert!(!folder.exists(), "checking makes no result");
+        assert_eq!(entries(home.path()), [""; 0], "checking makes nothing");
         for content in ["first", "second"] {
             publish(&folder, &files(content)).unwrap();
-            assert_eq!(fs::read_to_string(folder.join(RUN_FILE)).unwrap(), content);
+            assert_eq!(
+                fs::read_to_string(folder.join(RUN_FILE)).unwrap(),
+                format!(
+                    "{{\n  \"program\": \"prone\",\n  \"content\": \"{content}\",\n  \"artefacts\": [\n    \
+                     \"run.json\",\n    \"sub/table.csv\"\n  ]\n}}\n"
+                )
+            );
             assert!(folder.join("sub/table.csv").is_file());
             assert_eq!(entries(folder.parent().unwrap()), ["result"]);
             check(&folder).unwrap();
         }
+        fs::remove_file(folder.join("sub/table.csv")).unwrap();
+        check(&folder).unwrap();
     }
 
     #[test]
@@ -161,19 +179,101 @@ mod tests {
         let folder = home.path().join("photos");
         fs::create_dir(&folder).unwrap();
         check(&folder).unwrap();
-        fs::write(folder.join("cat.jpg"), b"cat").unwrap();
-        assert!(matches!(check(&folder), Err(OutputError::Foreign { .. })));
-        let file = folder.join("cat.jpg");
-        assert!(matches!(check(&file), Err(OutputError::NotAFolder { .. })));
-        assert!(matches!(
-            check(&file.join("below")),
-            Err(OutputError::Write { .. })
-        ));
-        assert!(matches!(
-            check(Path::new("/")),
-            Err(OutputError::NotAFolder { .. }
-                | OutputError::Foreign { .. }
-                | OutputError::Nameless { .. })
-        ));
+        let cat = folder.join("cat.jpg");
+        fs::write(&cat, b"cat").unwrap();
+        assert!(is_foreign(&folder, "it holds no run.json"));
+        for theirs in [
+            "",
+            "[]",
+            r#"{"program": "jog", "artefacts": ["cat.jpg", "run.json"]}"#,
+            r#"{"program": "prone"}"#,
+        ] {
+            fs::write(folder.join(RUN_FILE), theirs).unwrap();
+            let reason = "its run.json does not list what prone wrote";
+            assert!(is_foreign(&folder, reason), "{theirs}");
+        }
+        assert!(matches!(check(&cat), Err(OutputError::NotAFolder { .. })));
+        let below = check(&cat.join("below"));
+        assert!(matches!(below, Err(OutputError::Write { .. })));
+        for nameless in ["/", "..", "."] {
+            let refused = check(Path::new(nameless));
+            assert!(matches!(refused, Err(OutputError::Nameless { .. })));
+        }
+        assert_eq!(fs::read(cat).unwrap(), b"cat");
+    }
+
+    #[test]
+    fn a_result_with_one_thing_more_is_not_replaced() {
+        let home = tempfile::tempdir().unwrap();
+        let folder = home.path().join("result");
+        publish(&folder, &files("first")).unwrap();
+        let more = |path: &str| folder.join(path);
+        fs::write(more("sub/notes.txt"), b"mine").unwrap();
+        assert!(is_foreign(&folder, "prone did not write sub/notes.txt"));
+        fs::remove_file(more("sub/notes.txt")).unwrap();
+        fs::create_dir(more("empty")).unwrap();
+        assert!(is_foreign(&folder, "prone did not write empty"));
+        fs::remove_dir(more("empty")).unwrap();
+        fs::remove_file(more("sub/table.csv")).unwrap();
+        symlink("/etc/hostname", more("sub/table.csv")).unwrap();
+        assert!(is_foreign(&folder, "prone did not write sub/table.csv"));
+        fs::remove_file(more("sub/table.csv")).unwrap();
+        check(&folder).unwrap();
+    }
+
+    #[test]
+    fn links_are_followed_and_mounts_refused() {
+        let home = tempfile::tempdir().unwrap();
+        let at = |name: &str| home.path().join(name);
+        symlink("there", at("link")).unwrap();
+        let dangling = |path: &str| matches!(check(&at(path)), Err(OutputError::Dangling { .. }));
+        assert!(dangling("link") && dangling("link/below"));
+        fs::create_dir(at("there")).unwrap();
+        for content in ["first", "second"] {
+            publish(&at("link"), &files(content)).unwrap();
+            publish(&at("link/../there"), &files(content)).unwrap();
+        }
+        assert_eq!(entries(home.path()), ["link", "there"]);
+        assert_eq!(entries(&at("there")), [RUN_FILE, "sub"]);
+        symlink("/", at("root")).unwrap();
+        let root = check(&at("root"));
+        assert!(matches!(root, Err(OutputError::Nameless { .. })));
+        let target = Target::resolve(Path::new("/proc")).unwrap();
+        let mount = target.check_movable();
+        assert!(matches!(mount, Err(OutputError::MountPoint { .. })));
+        assert_eq!(entries(home.path()), ["link", "root", "there"]);
+    }
+
+    #[test]
+    fn a_failure_leaves_no_folders_behind() {
+        let home = tempfile::tempdir().unwrap();
+        let mut broken = files("first");
+        broken.insert("run.json/below".to_owned(), Vec::new());
+        let failed = publish(&home.path().join("a/b/result"), &broken);
+        assert!(matches!(failed, Err(OutputError::Write { .. })));
+        let failed = publish(&home.path().join("result"), &Artefacts::new());
+        assert!(matches!(failed, Err(OutputError::Unrecorded(_))));
+        let dotted = publish(&home.path().join("a/../result"), &files("first"));
+        assert!(matches!(dotted, Err(OutputError::Nameless { .. })));
+        assert_eq!(entries(home.path()), [""; 0]);
+    }
+
+    #[test]
+    fn results_of_many_threads_are_each_whole() {
+        let home = tempfile::tempdir().unwrap();
+        let folder = home.path().join("new/result");
+        std::thread::scope(|scope| {
+            for content in ["a", "b", "c", "d"] {
+                let folder = &folder;
+                scope.spawn(move || {
+                    for _ in 0..25 {
+                        check(folder).unwrap();
+                        publish(folder, &files(content)).unwrap();
+                    }
+                });
+            }
+        });
+        assert_eq!(entries(&folder), [RUN_FILE, "sub"]);
+        assert_eq!(entries(&home.path().join("new")), ["result"]);
     }
 }

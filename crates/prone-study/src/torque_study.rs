@@ -1,9 +1,11 @@
 //! The published torque study: closed-chain phases at several durations, simulated in parallel.
 
+mod plan;
+
 use rayon::prelude::*;
 
 use prone::cost::{CostError, squared_torque_integral};
-use prone::gait::{CheckedTrajectory, Gait, PhaseDuration, PhaseDurationError, TrajectoryError};
+use prone::gait::{CheckedTrajectory, Gait, PhaseDuration, TrajectoryError};
 use prone::mapping::MappingVariant;
 use prone::robot::{JointAngles, Robot};
 use prone_sim::pull::{self, Pull, PullError};
@@ -14,41 +16,13 @@ use crate::record::{
     ChainRecord, ChainSample, ClampRecord, CostRecord, PullRecord, PullRow, RunRecord,
 };
 
-/// Duration that pictures and the contact story show, or the nearest that is studied, s.
-const SHOWCASE_S: f64 = 5.0;
+pub use plan::{Plan, PlanError};
 
 /// Instants at which pictures of a pull are taken.
 pub const PICTURES: usize = 5;
 
 /// Samples of a planned chain: 1 % of the phase apart.
 const CHAIN_INTERVALS: usize = 100;
-
-/// What to simulate.
-#[derive(Debug, Clone)]
-pub struct Plan {
-    gaits: Vec<Gait>,
-    durations: Vec<PhaseDuration>,
-    showcase: PhaseDuration,
-}
-
-/// Why a study cannot be planned.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum PlanError {
-    /// Nothing to simulate.
-    #[error("a study needs at least one duration")]
-    NoDuration,
-    /// Not a phase.
-    #[error(transparent)]
-    Duration(#[from] PhaseDurationError),
-    /// Records are named by tenths of a second, and each is two control steps.
-    #[error(
-        "a duration of the study is a multiple of 0.1 s (two control steps); {seconds} s is not"
-    )]
-    NotTenths {
-        /// What was asked for.
-        seconds: f64,
-    },
-}
 
 /// Is told how a study goes, from many threads.
 pub trait Observer: Sync {
@@ -112,68 +86,6 @@ struct Job {
     pictures: usize,
     /// Whether it belongs to the study proper, not to the comparison of mappings.
     proper: bool,
-}
-
-impl Plan {
-    /// Gaits in the order of the records, and durations in seconds; order and repetitions do not
-    /// matter.
-    ///
-    /// # Errors
-    /// [`PlanError`].
-    pub fn new(gaits: Vec<Gait>, durations_s: &[f64]) -> Result<Self, PlanError> {
-        let mut durations = Vec::new();
-        for &seconds in durations_s {
-            let duration = PhaseDuration::new(seconds)?;
-            let tenths = seconds * 10.0;
-            // 1e-6 of a tenth: decimal durations are not exact in binary.
-            if (tenths - tenths.round()).abs() > 1e-6 {
-                return Err(PlanError::NotTenths { seconds });
-            }
-            durations.push(duration);
-        }
-        durations.sort_by(|a, b| a.seconds().total_cmp(&b.seconds()));
-        durations.dedup();
-        // The longer of two that are as near.
-        let apart = |duration: &PhaseDuration| (duration.seconds() - SHOWCASE_S).abs();
-        let mut by_length = durations.iter().rev();
-        let first = *by_length.next().ok_or(PlanError::NoDuration)?;
-        let showcase = by_length.fold(first, |best, duration| {
-            if apart(duration) < apart(&best) {
-                *duration
-            } else {
-                best
-            }
-        });
-        Ok(Self {
-            gaits,
-            durations,
-            showcase,
-        })
-    }
-
-    /// How many phases are simulated: every gait at every duration, and once more with the other
-    /// mapping.
-    pub fn phases(&self) -> usize {
-        self.gaits.len() * (self.durations.len() + 1)
-    }
-
-    /// The gaits, in the order of the records.
-    pub fn gaits(&self) -> &[Gait] {
-        &self.gaits
-    }
-
-    /// Duration that pictures and the contact story show, s.
-    pub fn showcase_s(&self) -> f64 {
-        self.showcase.seconds()
-    }
-
-    /// Durations, ascending, s.
-    pub fn durations_s(&self) -> Vec<f64> {
-        self.durations
-            .iter()
-            .map(|duration| duration.seconds())
-            .collect()
-    }
 }
 
 /// Runs the study on the current rayon pool.
