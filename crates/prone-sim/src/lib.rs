@@ -1,6 +1,6 @@
 //! Crawling robots in the `MuJoCo` engine.
 //!
-//! [`load`] turns a robot's two files into [`prone::robot::Robot`]; a [`World`] puts it on a floor
+//! [`LoadedRobot`] turns a robot's two files into [`prone::robot::Robot`]; a [`World`] puts it on a floor
 //! under a named contact [`regime`]; a [`Simulation`] steps it with the servo law of the published
 //! study; [`pull`] runs one closed-chain phase and records it; [`camera`] takes pictures on the
 //! CPU.

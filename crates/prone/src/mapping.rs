@@ -18,7 +18,7 @@
 //! R(shoulder) R(roll) R(a) R(b) f⁰ = R_y(φ⁰ − φ)ᵀ x̂                            (3)
 //! ```
 //!
-//! exactly (Paden and Kahan's second subproblem, [`forearm`]).
+//! exactly (Paden and Kahan's second subproblem, module `forearm`).
 //!
 //! Two variants, by name: [`MappingVariant::Exact`] takes every length, zero and the roll from
 //! the robot; [`MappingVariant::Original`] takes lengths, ankle zero and roll as published, which

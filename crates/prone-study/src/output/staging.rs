@@ -218,9 +218,12 @@ mod tests {
         let living = staged(&target);
         let killed = staged(&target);
         let left = killed.folder.path().to_owned();
-        let Staging { folder, _lock } = killed;
+        let Staging {
+            folder,
+            _lock: lock,
+        } = killed;
         let _ = folder.keep();
-        drop(_lock);
+        drop(lock);
         let foreign = home.path().join(".result.partial-album");
         fs::create_dir(&foreign).unwrap();
         fs::write(foreign.join("cat.jpg"), b"cat").unwrap();
