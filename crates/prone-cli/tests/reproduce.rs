@@ -5,7 +5,7 @@ use std::fs;
 use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use prone_files::shipped::NAO;
 
@@ -124,7 +124,6 @@ fn what_cannot_be_written_is_refused_before_the_work() {
     let at = |name: &str| home.path().join(name).display().to_string();
     fs::write(at("photo.jpg"), b"cat").unwrap();
     symlink("nowhere", at("link")).unwrap();
-    let started = Instant::now();
     for (out, expected) in [
         (
             at(""),
@@ -142,8 +141,6 @@ fn what_cannot_be_written_is_refused_before_the_work() {
         assert!(message.contains(expected) || out == "/dev/shm", "{message}");
     }
     assert_eq!(fs::read_dir(home.path()).unwrap().count(), 2);
-    // Far less than the work takes; only a guard against refusing after it.
-    assert!(started.elapsed() < Duration::from_secs(60));
 }
 
 #[test]
