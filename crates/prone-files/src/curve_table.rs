@@ -7,7 +7,7 @@ use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
-use prone::gait::{Curve, CurveError};
+use prone::gait::{Curve, CurveError, CurveForm};
 
 use crate::exactly::Exactly;
 
@@ -104,6 +104,22 @@ impl Form {
             Self::Polynomial(numbers) => numbers.iter().fold(0.0, larger),
             Self::Through(points) => points.iter().flatten().fold(0.0, larger),
             Self::BSpline(spline) => spline.control.iter().fold(0.0, larger),
+        }
+    }
+}
+
+/// One line of a table that reads as the same curve.
+pub(crate) fn write(curve: &Curve) -> String {
+    // `{:?}` is the shortest text that reads as the same number.
+    match curve.form() {
+        CurveForm::Polynomial([value]) => format!("constant_rad = {value:?}"),
+        CurveForm::Polynomial(coefficients) => format!("polynomial_rad = {coefficients:?}"),
+        CurveForm::BSpline { degree, control } => {
+            format!("b_spline_rad = {{ degree = {degree}, control = {control:?} }}")
+        }
+        CurveForm::Through(points) => {
+            let points: Vec<_> = points.iter().map(|(s, value)| [s, value]).collect();
+            format!("through_rad = {points:?}")
         }
     }
 }

@@ -25,7 +25,7 @@ use toml::Spanned;
 use prone::gait::{Gait, LimitsPolicy};
 use prone::mapping::{ArmMode, MappingVariant};
 
-use crate::curve_table::CurveTable;
+use crate::curve_table::{self, CurveTable};
 use crate::error::{FileError, Source};
 
 /// Reads a gait from the text of a gait file; `file` is the name that errors carry.
@@ -59,6 +59,38 @@ pub fn parse(file: &str, text: &str) -> Result<Gait, FileError> {
         arm: gait.arm.into(),
         limits: gait.limits.into(),
     })
+}
+
+/// A gait as the text of a gait file: angles in radians with every digit, so that [`parse`] gives
+/// the same gait. `header` becomes comment lines at the top.
+pub fn write(gait: &Gait, header: &str) -> String {
+    let mut text = String::new();
+    for line in header.lines() {
+        text.push_str(format!("# {line}").trim_end());
+        text.push('\n');
+    }
+    let quoted = |value: &str| toml::Value::from(value).to_string();
+    let limits = match gait.limits {
+        LimitsPolicy::Refuse => "refuse",
+        LimitsPolicy::Clamp => "clamp",
+    };
+    for (key, value) in [
+        ("name", gait.name.as_str()),
+        ("description", &gait.description),
+        ("mapping", gait.mapping.name()),
+        ("arm", gait.arm.name()),
+        ("limits", limits),
+    ] {
+        text.push_str(&format!("{key} = {}\n", quoted(value)));
+    }
+    for (table, curve) in [
+        ("knee", &gait.knee),
+        ("hip", &gait.hip),
+        ("upper_arm", &gait.upper_arm),
+    ] {
+        text.push_str(&format!("\n[{table}]\n{}\n", curve_table::write(curve)));
+    }
+    text
 }
 
 #[derive(Debug, Deserialize)]
@@ -181,6 +213,25 @@ linear_deg = [-30, -90]
             let text = GOOD.replace("constant_deg = 16.5", form);
             let gait = parse("gait.toml", &text).unwrap();
             assert!((gait.knee.value(0.5) - at_half).abs() < 1e-12, "{form}");
+        }
+    }
+
+    #[test]
+    fn what_is_written_is_read_again() {
+        for form in [
+            "constant_rad = 0.1",
+            "linear_deg = [1, 7]",
+            "polynomial_rad = [1.8796, -0.1365, -1.7434, 0.47997]",
+            "through_deg = [[0, 1.1], [0.3, 7], [1, -2]]",
+            "b_spline_rad = { degree = 3, control = [0.1, 1e-17, -3.0, 0.7, 0.30000000000000004] }",
+        ] {
+            let mut gait = parse("a.toml", &GOOD.replace("constant_deg = 16.5", form)).unwrap();
+            gait.limits = LimitsPolicy::Clamp;
+            gait.mapping = MappingVariant::Original;
+            gait.description = "a \"quoted\" word, a \\ and\na line".to_owned();
+            let text = write(&gait, "first line\n\nthird line");
+            assert!(text.starts_with("# first line\n#\n# third line\nname = \"arched\"\n"));
+            assert_eq!(parse("b.toml", &text).unwrap(), gait, "{text}");
         }
     }
 

@@ -23,6 +23,8 @@ pub(crate) struct Tally {
     pub(crate) evaluations: u64,
     pub(crate) violation: f64,
     pub(crate) value: f64,
+    pub(crate) feasible: u64,
+    pub(crate) feasible_value: f64,
     pub(crate) best: Option<Candidate>,
 }
 
@@ -75,6 +77,10 @@ impl Tally {
         self.evaluations += 1;
         self.violation += score.violation();
         self.value += score.value();
+        if score.violation() == 0.0 {
+            self.feasible += 1;
+            self.feasible_value += score.value();
+        }
         if self
             .best
             .as_ref()

@@ -22,6 +22,10 @@ pub struct Generation {
     pub mean_violation: f64,
     /// Mean value of this generation's points.
     pub mean_value: f64,
+    /// How many of this generation's points are feasible.
+    pub feasible: u64,
+    /// Mean value of those, 0 without any.
+    pub mean_feasible_value: f64,
     /// How often the search has begun anew.
     pub restarts: u64,
 }

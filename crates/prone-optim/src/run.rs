@@ -142,6 +142,8 @@ impl<S: Solver> Run<S> {
             generation_best,
             mean_violation: tally.violation / tally.evaluations as f64,
             mean_value: tally.value / tally.evaluations as f64,
+            feasible: tally.feasible,
+            mean_feasible_value: tally.feasible_value / tally.feasible.max(1) as f64,
             restarts: self.solver.restarts(),
         };
         self.best = Some(best);

@@ -1,13 +1,17 @@
 //! One closed-chain phase in simulation, from a stated start pose.
 //!
-//! As in the published recordings: the robot lies on its belly in the stored start pose, the
-//! servos hold it until it has settled, then the phase begins. The command changes every control
-//! step and is held in between; row k is the mean over control step k, stamped with its end.
+//! The robot lies on its belly in the start pose ([`Start`]), the servos hold it until it has
+//! settled, then the phase begins. The command changes every control step and is held in between;
+//! row k is the mean over control step k, stamped with its end.
+//!
+//! [`run`] does all of it. A search that simulates many gaits with one first pose settles once
+//! ([`settle`]) and goes on from there as often as it likes ([`proceed`]), to the same bits.
 
 use std::f64::consts::FRAC_PI_2;
 
 use prone::frames::{Ground, Root, Transform};
 use prone::gait::{CheckedTrajectory, Gait, PhaseDuration, TrajectoryError};
+use prone::mapping::Mapping;
 use prone::robot::JointAngles;
 
 use crate::regime::CONTROL_STEP;
@@ -17,6 +21,17 @@ use crate::world::World;
 /// How long the servos hold the start pose before the phase, s. From half a second on, longer
 /// changes nothing; none at all starts the phase in mid-fall.
 pub const SETTLE: f64 = 1.0;
+
+/// The pose in which the servos hold the robot before the phase.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Start {
+    /// The robot's study names it ([`prone::robot::StudySetup::start_posture`]): the pose stored in
+    /// the scene of the published recordings.
+    Recorded,
+    /// The first sample of the gait itself, the trunk pitched as in its planar chain: what a crawl
+    /// hands over, and what makes gaits comparable that begin differently.
+    FirstPose,
+}
 
 /// Record of one phase.
 #[derive(Debug, Clone, PartialEq)]
@@ -106,35 +121,83 @@ pub fn run(
     world: &World,
     gait: &Gait,
     duration: PhaseDuration,
+    start: Start,
     pictures: usize,
 ) -> Result<Pull, PullError> {
     let trajectory = plan(world, gait, duration)?;
-    let robot = world.robot();
-    let posture = robot
-        .postures
-        .get(&robot.study.start_posture)
-        .ok_or_else(|| PullError::StartPosture {
-            robot: robot.name.clone(),
-            posture: robot.study.start_posture.clone(),
-        })?;
-    let mut simulation = Simulation::new(
-        world,
-        &Placement {
-            posture: posture.clone(),
-            pitch: FRAC_PI_2,
-        },
-    );
+    let placement = placement(world, gait, &trajectory, start)?;
     let broken = |source| PullError::Simulation {
         gait: gait.name.clone(),
         duration_s: duration.seconds(),
         source,
     };
-    for _ in 0..whole_steps(SETTLE) {
-        simulation.control_step().map_err(broken)?;
-    }
+    let settled = settle(world, &placement).map_err(broken)?;
+    proceed(settled, trajectory, pictures).map_err(broken)
+}
 
+/// How the robot is laid down before the phase.
+///
+/// # Errors
+/// [`PullError::StartPosture`], or [`PullError::Trajectory`] where the mapping does not fit.
+pub fn placement(
+    world: &World,
+    gait: &Gait,
+    trajectory: &CheckedTrajectory,
+    start: Start,
+) -> Result<Placement, PullError> {
+    let robot = world.robot();
+    match start {
+        Start::Recorded => {
+            let name = &robot.study.start_posture;
+            let posture = robot.postures.get(name);
+            let posture = posture.ok_or_else(|| PullError::StartPosture {
+                robot: robot.name.clone(),
+                posture: name.clone(),
+            })?;
+            Ok(Placement {
+                posture: posture.clone(),
+                pitch: FRAC_PI_2,
+            })
+        }
+        Start::FirstPose => {
+            let mapping = Mapping::new(robot, gait.mapping, gait.arm);
+            let mapping = mapping.map_err(TrajectoryError::Mapping)?;
+            let first = &trajectory.samples()[0];
+            Ok(Placement {
+                posture: first.joints.clone(),
+                pitch: mapping.root_pitch(&first.chain),
+            })
+        }
+    }
+}
+
+/// Lays the robot down and lets the servos hold it for [`SETTLE`].
+///
+/// # Errors
+/// [`SimulationError`].
+pub fn settle<'w>(
+    world: &'w World,
+    placement: &Placement,
+) -> Result<Simulation<'w>, SimulationError> {
+    let mut simulation = Simulation::new(world, placement);
+    for _ in 0..whole_steps(SETTLE) {
+        simulation.control_step()?;
+    }
+    Ok(simulation)
+}
+
+/// Commands a trajectory made by [`plan`] from where the robot is.
+///
+/// # Errors
+/// [`SimulationError`].
+pub fn proceed(
+    mut simulation: Simulation<'_>,
+    trajectory: CheckedTrajectory,
+    pictures: usize,
+) -> Result<Pull, SimulationError> {
+    let robot = simulation.robot();
     let start = simulation.ground_from_root();
-    let steps = control_steps(duration);
+    let steps = trajectory.samples().len() - 1;
     let mut snapshots = Vec::with_capacity(pictures);
     let mut rows = Vec::with_capacity(steps);
     for (k, sample) in trajectory.samples()[..steps].iter().enumerate() {
@@ -142,7 +205,7 @@ pub fn run(
             snapshots.push(simulation.snapshot());
         }
         simulation.command(&sample.joints);
-        let means = simulation.control_step().map_err(broken)?;
+        let means = simulation.control_step()?;
         let poses = simulation.body_poses();
         rows.push(Row {
             time: (k + 1) as f64 * CONTROL_STEP,

@@ -14,8 +14,8 @@ use crate::world::World;
 /// Coordinates of a free root: position and quaternion.
 const FREE_JOINT: usize = 7;
 
-/// A robot moving in a world.
-#[derive(Debug)]
+/// A robot moving in a world. A clone goes on to the same bits as the original.
+#[derive(Debug, Clone)]
 pub struct Simulation<'w> {
     world: &'w World,
     data: MjData<Arc<MjModel>>,

@@ -3,10 +3,11 @@
 use glam::{DQuat, DVec3};
 use serde::Serialize;
 
+use prone::chain::ChainAngles;
 use prone::frames::{Ground, Root, Transform};
 use prone::gait::{CheckedTrajectory, Gait, PhaseDuration, Sample, TrajectoryError};
 use prone::mapping::Mapping;
-use prone::robot::{ContactGroup, JointId, Robot, Shape};
+use prone::robot::{BodyPoses, ContactGroup, JointAngles, JointId, Robot, Shape};
 
 /// Samples of a sheet: 1 % of the phase apart.
 const INTERVALS: usize = 100;
@@ -136,20 +137,8 @@ fn row(
     ids: &[JointId],
 ) -> SheetRow {
     let chain = &sample.chain;
-    // The root is pitched as the chain says and lowered until the toe contact is on the floor.
-    let turn = DQuat::from_rotation_y(mapping.root_pitch(chain));
-    let hanging = Transform::<Ground, Root>::new(turn, DVec3::ZERO);
-    let toe = robot
-        .forward_kinematics(hanging, &sample.joints)
-        .point(robot.chain.left.toe);
-    let standing = Transform::<Ground, Root>::new(turn, DVec3::new(-toe.x(), 0.0, -toe.z()));
-    let poses = robot.forward_kinematics(standing, &sample.joints);
+    let poses = planned_poses(robot, mapping, chain, &sample.joints);
     let posture = &sample.posture;
-    // What toes and elbows are to keep off the floor.
-    let is_carried = |shape: &Shape| {
-        let group = robot.bodies[shape.body.0].contact_group;
-        matches!(group, ContactGroup::Torso | ContactGroup::Leg)
-    };
     SheetRow {
         cycle_percent: sample.s * 100.0,
         time_s: sample.s * duration.seconds(),
@@ -165,8 +154,33 @@ fn row(
         centres_mm: [posture.ankle, posture.knee, posture.hip, posture.shoulder]
             .map(|centre| centre.z() * 1e3),
         top_mm: robot.top(&poses, |_| true) * 1e3,
-        body_bottom_mm: robot.bottom(&poses, is_carried) * 1e3,
+        body_bottom_mm: body_bottom(robot, &poses) * 1e3,
     }
+}
+
+/// Where the bodies are in a planned posture: the root is pitched as the chain says and lowered
+/// until the toe contact is on the floor.
+pub(crate) fn planned_poses(
+    robot: &Robot,
+    mapping: &Mapping,
+    chain: &ChainAngles,
+    joints: &JointAngles,
+) -> BodyPoses<Ground> {
+    let turn = DQuat::from_rotation_y(mapping.root_pitch(chain));
+    let hanging = Transform::<Ground, Root>::new(turn, DVec3::ZERO);
+    let toe = robot
+        .forward_kinematics(hanging, joints)
+        .point(robot.chain.left.toe);
+    let standing = Transform::<Ground, Root>::new(turn, DVec3::new(-toe.x(), 0.0, -toe.z()));
+    robot.forward_kinematics(standing, joints)
+}
+
+/// Lowest point of what toes and elbows are to keep off the floor, trunk and legs, m.
+pub(crate) fn body_bottom(robot: &Robot, poses: &BodyPoses<Ground>) -> f64 {
+    robot.bottom(poses, |shape: &Shape| {
+        let group = robot.bodies[shape.body.0].contact_group;
+        matches!(group, ContactGroup::Torso | ContactGroup::Leg)
+    })
 }
 
 fn clamps(robot: &Robot, trajectory: &CheckedTrajectory) -> Vec<SheetClamp> {

@@ -8,6 +8,7 @@ pub mod contact_story;
 pub mod figures;
 pub mod frames;
 pub mod gait_sheet;
+pub mod optimize;
 pub mod output;
 pub mod published;
 pub mod record;

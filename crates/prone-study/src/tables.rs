@@ -89,7 +89,7 @@ pub(crate) fn agreement(agreement: &[Agreement]) -> Result<Vec<u8>, csv::Error> 
 }
 
 /// A number with fixed decimals; a negative zero loses its sign.
-fn number(value: f64, decimals: usize) -> String {
+pub(crate) fn number(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     match text.strip_prefix('-') {
         Some(rest) if rest.bytes().all(|byte| matches!(byte, b'0' | b'.')) => rest.to_owned(),
@@ -97,7 +97,7 @@ fn number(value: f64, decimals: usize) -> String {
     }
 }
 
-fn finish(table: csv::Writer<Vec<u8>>) -> Result<Vec<u8>, csv::Error> {
+pub(crate) fn finish(table: csv::Writer<Vec<u8>>) -> Result<Vec<u8>, csv::Error> {
     table
         .into_inner()
         .map_err(|error| error.into_error().into())

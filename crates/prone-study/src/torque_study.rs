@@ -8,7 +8,7 @@ use prone::cost::{CostError, squared_torque_integral};
 use prone::gait::{CheckedTrajectory, Gait, PhaseDuration, TrajectoryError};
 use prone::mapping::MappingVariant;
 use prone::robot::{JointAngles, Robot};
-use prone_sim::pull::{self, Pull, PullError};
+use prone_sim::pull::{self, Pull, PullError, Start};
 use prone_sim::{Snapshot, World};
 
 use crate::published;
@@ -102,7 +102,13 @@ pub fn run(world: &World, plan: &Plan, observer: &dyn Observer) -> Result<Torque
             if observer.stop() {
                 return Err(StudyError::Stopped);
             }
-            let pull = pull::run(world, &job.gait, job.duration, job.pictures)?;
+            let pull = pull::run(
+                world,
+                &job.gait,
+                job.duration,
+                Start::Recorded,
+                job.pictures,
+            )?;
             observer.phase_done();
             Ok(pull)
         })
@@ -129,7 +135,7 @@ pub fn run(world: &World, plan: &Plan, observer: &dyn Observer) -> Result<Torque
     for (job, result) in jobs.iter().zip(results) {
         let pull = result?;
         study.engine_steps += pull.engine_steps;
-        let record = pull_record(world.robot(), job, &pull);
+        let record = pull_record(world.robot(), &job.gait, job.duration, &pull);
         let cost = cost_record(&record)?;
         if job.proper {
             study.costs.push(cost);
@@ -226,7 +232,13 @@ fn clamp_records<'a>(
     })
 }
 
-fn pull_record(robot: &Robot, job: &Job, pull: &Pull) -> PullRecord {
+/// What a simulated pull leaves behind.
+pub(crate) fn pull_record(
+    robot: &Robot,
+    gait: &Gait,
+    duration: PhaseDuration,
+    pull: &Pull,
+) -> PullRecord {
     let side = &robot.chain.right;
     let pitch = side.pitch_joints();
     let commanded = side.commanded_joints();
@@ -244,8 +256,8 @@ fn pull_record(robot: &Robot, job: &Job, pull: &Pull) -> PullRecord {
         head_top_mm: row.head_top * 1e3,
     });
     PullRecord {
-        gait: job.gait.name.clone(),
-        duration_s: job.duration.seconds(),
+        gait: gait.name.clone(),
+        duration_s: duration.seconds(),
         rows: rows.collect(),
     }
 }

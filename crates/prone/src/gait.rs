@@ -7,7 +7,7 @@
 mod curve;
 mod trajectory;
 
-pub use curve::{Curve, CurveError};
+pub use curve::{Curve, CurveError, CurveForm};
 pub use trajectory::{
     CheckedTrajectory, Clamp, PhaseDuration, PhaseDurationError, Sample, TrajectoryError,
 };

@@ -69,6 +69,12 @@ pub trait TorqueSource: Sync {
     fn torques(&self, at: GaitParameters) -> Result<JointTorques, TorqueGap>;
 }
 
+impl<Source: TorqueSource + ?Sized> TorqueSource for &Source {
+    fn torques(&self, at: GaitParameters) -> Result<JointTorques, TorqueGap> {
+        (**self).torques(at)
+    }
+}
+
 /// Why a source has no torques for a posture.
 #[derive(Debug, thiserror::Error)]
 pub enum TorqueGap {

@@ -8,13 +8,16 @@
 //! rate:       |Δθ| / (Δt · limit) − 1      per joint and interval               (1)
 //! clearance:  (required − height) / required                                    (2)
 //! closure:    |cos| − 1                    of equation (4) of the chain         (3)
-//! torque:     1                            where the source has no answer       (4)
+//! floor:      depth / l5                   of the lowest joint centre           (4)
+//! torque:     1                            where the source has no answer       (5)
+//! body share: (share − allowed) / (1 − allowed), once a phase                   (6)
 //! ```
 //!
-//! summed over samples. The torque part is one of (trapezoid rule over equal intervals)
+//! summed over samples. (1) to (4) are the planned chain's own ([`violations`]) and need no torques.
+//! The torque part is one of (trapezoid rule over equal intervals)
 //!
 //! ```text
-//! ∫ Σ w τ² dt  [N²·m²·s],   max |τ|/τ_rated  [1],   ∫ Σ (τ/τ_nominal)² dt  [s]   (5)
+//! ∫ Σ w τ² dt  [N²·m²·s],   max |τ|/τ_rated  [1],   ∫ Σ (τ/τ_nominal)² dt  [s]   (7)
 //! ```
 //!
 //! per phase, or divided by the metres the phase advances.
@@ -24,19 +27,37 @@ use std::collections::BTreeMap;
 
 use crate::chain::{ChainAngles, ClosedChain, ClosureError, GaitParameters};
 
-use crate::torque_map::{JointTorques, TorqueSource};
+use crate::torque_map::{JointTorques, TorqueGap, TorqueSource};
 
 /// A rule that a gait can break.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Rule {
     /// The chain closes.
     Closure,
+    /// No joint centre is below the floor.
+    Floor,
     /// The source knows the torques.
     Torque,
     /// The body keeps its height.
     Clearance,
     /// No joint is faster than its limit.
     Rate,
+    /// Trunk and legs carry no more than their share of the weight.
+    BodyShare,
+}
+
+impl Rule {
+    /// Name in files and records.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Closure => "closure",
+            Self::Floor => "floor",
+            Self::Torque => "torque",
+            Self::Clearance => "clearance",
+            Self::Rate => "rate",
+            Self::BodyShare => "body-share",
+        }
+    }
 }
 
 /// By how much a rule is broken.
@@ -83,7 +104,7 @@ impl Violations {
 /// What a gait costs and which rules it breaks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Price {
-    /// The torque part (5), over the samples that have torques.
+    /// The torque part (7), over the samples that have torques.
     pub torque: f64,
     /// The rules it breaks.
     pub violations: Violations,
@@ -97,7 +118,7 @@ impl Price {
     }
 }
 
-/// Which torque part of (5); arrays are in the order of [`JointTorques`].
+/// Which torque part of (7); arrays are in the order of [`JointTorques`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Norm {
     /// ∫ Σ w τ² dt.
@@ -164,7 +185,7 @@ pub enum Per {
 
 /// What a gait has to keep to.
 pub struct Rules<Height> {
-    /// Height to be kept by whatever `height` measures, m; positive.
+    /// Height to be kept by whatever `height` measures, m; where it is not positive, none is asked.
     pub clearance: f64,
     /// Height of the lowest part that must not touch, m: the hip centre, or the body's shapes.
     pub height: Height,
@@ -190,8 +211,31 @@ pub fn price<Height: Fn(&ChainAngles) -> f64>(
     norm: &Norm,
     per: Per,
 ) -> Price {
-    let mut violations = Violations::default();
+    let mut violations = violations(chain, phase, rules);
     let mut torques = Vec::with_capacity(phase.samples.len());
+    for &sample in phase.samples {
+        match source.torques(sample) {
+            Ok(row) => torques.push(row),
+            // Graded already, as (3).
+            Err(TorqueGap::Closure(_)) => {}
+            Err(_) => violations.add(Rule::Torque, 1.0),
+        }
+    }
+    let torque = norm.of(&torques, phase.interval);
+    let torque = match per {
+        Per::Phase => torque,
+        Per::Metre { advance } => torque / advance,
+    };
+    Price { torque, violations }
+}
+
+/// The rules (1) to (4) that the planned chain breaks.
+pub fn violations<Height: Fn(&ChainAngles) -> f64>(
+    chain: &ClosedChain,
+    phase: Phase<'_>,
+    rules: &Rules<Height>,
+) -> Violations {
+    let mut violations = Violations::default();
     let mut before = None;
     for &sample in phase.samples {
         let angles = match chain.close(sample) {
@@ -202,11 +246,17 @@ pub fn price<Height: Fn(&ChainAngles) -> f64>(
                 continue;
             }
         };
-        let height = (rules.height)(&angles);
-        violations.add(
-            Rule::Clearance,
-            (rules.clearance - height) / rules.clearance,
-        );
+        let depth = chain.posture(&angles).points().map(|point| -point.z());
+        // The elbow is on the floor up to rounding.
+        let depth = depth[..5].iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        violations.add(Rule::Floor, depth / chain.shoulder_to_elbow);
+        if rules.clearance > 0.0 {
+            let height = (rules.height)(&angles);
+            violations.add(
+                Rule::Clearance,
+                (rules.clearance - height) / rules.clearance,
+            );
+        }
         for rate in before
             .iter()
             .flat_map(|before| rates(before, &angles, phase.interval))
@@ -214,17 +264,8 @@ pub fn price<Height: Fn(&ChainAngles) -> f64>(
             violations.add(Rule::Rate, rate / rules.rate - 1.0);
         }
         before = Some(angles);
-        match source.torques(sample) {
-            Ok(row) => torques.push(row),
-            Err(_) => violations.add(Rule::Torque, 1.0),
-        }
     }
-    let torque = norm.of(&torques, phase.interval);
-    let torque = match per {
-        Per::Phase => torque,
-        Per::Metre { advance } => torque / advance,
-    };
-    Price { torque, violations }
+    violations
 }
 
 /// Speeds of ankle, knee, hip and shoulder, rad/s.

@@ -25,6 +25,22 @@ enum Form {
     },
 }
 
+/// The numbers that a curve was made of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum CurveForm<'a> {
+    /// Coefficients, highest power first.
+    Polynomial(&'a [f64]),
+    /// A clamped uniform B-spline.
+    BSpline {
+        /// Its degree.
+        degree: usize,
+        /// Its control points.
+        control: &'a [f64],
+    },
+    /// A natural cubic spline through points (s, value).
+    Through(&'a [(f64, f64)]),
+}
+
 /// Why numbers do not make a curve.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum CurveError {
@@ -107,6 +123,18 @@ impl Curve {
             return Err(CurveError::NoCoefficients);
         }
         Ok(Self(Form::Polynomial(coefficients)))
+    }
+
+    /// What it was made of.
+    pub fn form(&self) -> CurveForm<'_> {
+        match &self.0 {
+            Form::Polynomial(coefficients) => CurveForm::Polynomial(coefficients),
+            Form::BSpline { degree, control } => CurveForm::BSpline {
+                degree: *degree,
+                control,
+            },
+            Form::Interpolating { points, .. } => CurveForm::Through(points),
+        }
     }
 
     /// A clamped uniform B-spline.

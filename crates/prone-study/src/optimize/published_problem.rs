@@ -1,0 +1,188 @@
+//! The published optimisation as an optimiser sees it: six free coefficients, ±2.
+//!
+//! The published cost is the torque part and 1000 N²·m²·s per violated sample, so that fewer
+//! violated samples win, and torque decides between equals. That is the order of scores here:
+//!
+//! ```text
+//! violation = violated samples, or 505 + the excess of coefficients over ±2      (1)
+//! value     = torque part                                                        (2)
+//! ```
+//!
+//! 505 is more than any gait's count (five rules at 101 samples), so that no gait beyond the bounds
+//! beats one within.
+
+use prone::chain::ClosedChain;
+use prone::cost::published::{
+    Coefficients, FREE, PublishedError, PublishedObjective, PublishedRules, SAMPLES, START,
+    VIOLATION_COST,
+};
+use prone::gait::{Curve, CurveError, CurveForm, Gait, LimitsPolicy};
+use prone::mapping::{ArmMode, MappingVariant};
+use prone::robot::Robot;
+use prone::torque_map::{Axis, Grid, GridError, TorqueMap};
+use prone_optim::{Interval, IntervalError, Problem, Score};
+
+/// Bound of every coefficient.
+pub const BOUND: f64 = 2.0;
+
+/// How far above its threshold the hip is searched, m: where the best gaits keep one sample
+/// exactly at the threshold, another implementation's rounding must not count it as below.
+pub const HIP_MARGIN: f64 = 1e-9;
+
+/// The published problem on a map.
+#[derive(Debug, Clone)]
+pub struct PublishedProblem {
+    objective: PublishedObjective,
+    bounds: [Interval; FREE],
+}
+
+/// Why there is no such problem.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum PublishedProblemError {
+    /// The robot's publication prints no chain.
+    #[error("robot {robot} has no published chain, which the objective `published` needs")]
+    NoPublishedChain {
+        /// The robot's name.
+        robot: String,
+    },
+    /// The map cannot serve.
+    #[error(transparent)]
+    Map(#[from] PublishedError),
+    /// The grid has no axes, which constants exclude.
+    #[error(transparent)]
+    Grid(#[from] GridError),
+    /// The bounds are no interval, which a constant excludes.
+    #[error(transparent)]
+    Bounds(#[from] IntervalError),
+}
+
+impl PublishedProblem {
+    /// The problem of a robot's published chain on a map; `rules` as published or varied.
+    ///
+    /// # Errors
+    /// [`PublishedProblemError`].
+    pub fn new(
+        robot: &Robot,
+        map: &TorqueMap,
+        rules: PublishedRules,
+    ) -> Result<Self, PublishedProblemError> {
+        let chain = published_chain(robot)?;
+        let searched = PublishedRules {
+            hip_threshold: rules.hip_threshold + HIP_MARGIN,
+            ..rules
+        };
+        Ok(Self {
+            objective: PublishedObjective::new(chain, map, searched)?,
+            bounds: [Interval::new(-BOUND, BOUND)?; FREE],
+        })
+    }
+}
+
+/// The published objective of a robot's published chain on a map.
+///
+/// # Errors
+/// [`PublishedProblemError`].
+pub fn objective(
+    robot: &Robot,
+    map: &TorqueMap,
+    rules: PublishedRules,
+) -> Result<PublishedObjective, PublishedProblemError> {
+    Ok(PublishedObjective::new(
+        published_chain(robot)?,
+        map,
+        rules,
+    )?)
+}
+
+/// The grid of the published table, extended to θ4 = 27.5°, in steps of 2.5° (THEORY.md §5).
+pub(super) fn grid() -> Result<Grid, GridError> {
+    let axis = |low: f64, high: f64, nodes| Axis::new(low.to_radians(), high.to_radians(), nodes);
+    Ok(Grid {
+        knee: axis(-5.0, 45.0, 21)?,
+        hip: axis(-30.0, 27.5, 24)?,
+        upper_arm: axis(-90.0, -30.0, 25)?,
+    })
+}
+
+fn published_chain(robot: &Robot) -> Result<ClosedChain, PublishedProblemError> {
+    let published = robot.chain.published;
+    published.map(|published| published.chain).ok_or_else(|| {
+        PublishedProblemError::NoPublishedChain {
+            robot: robot.name.clone(),
+        }
+    })
+}
+
+impl Problem for PublishedProblem {
+    fn bounds(&self) -> &[Interval] {
+        &self.bounds
+    }
+
+    fn evaluate(&self, point: &[f64]) -> Score {
+        let Some(gait) = coefficients(point) else {
+            return Score::new(f64::MAX, 0.0);
+        };
+        // The three coefficients that follow from the end have the same bounds.
+        let outside = gait.outside(BOUND);
+        if outside > 0.0 {
+            return Score::new(5.0 * SAMPLES as f64 + outside, 0.0);
+        }
+        let price = self.objective.price(&gait);
+        Score::new(f64::from(price.violated.total()), price.torque)
+    }
+}
+
+/// The gait's coefficients of a point; `None` unless it has six numbers.
+pub fn coefficients(point: &[f64]) -> Option<Coefficients> {
+    let free: [f64; FREE] = point.try_into().ok()?;
+    Some(Coefficients::through_end(free))
+}
+
+/// A gait as the published objective sees it: c3, c2, c1 of its cubics. The objective has a start
+/// of its own, so constant terms do not count. `None` where a curve is no polynomial of degree 3
+/// or less.
+pub fn coefficients_of(gait: &Gait) -> Option<Coefficients> {
+    let of = |curve: &Curve| {
+        let CurveForm::Polynomial(coefficients) = curve.form() else {
+            return None;
+        };
+        let (above, cubic) = coefficients.split_at(coefficients.len().saturating_sub(4));
+        if above.iter().any(|c| *c != 0.0) {
+            return None;
+        }
+        let mut c = [0.0; 4];
+        c[4 - cubic.len()..].copy_from_slice(cubic);
+        let [c3, c2, c1, _] = c;
+        Some([c3, c2, c1])
+    };
+    let curves = [of(&gait.knee)?, of(&gait.hip)?, of(&gait.upper_arm)?];
+    Some(Coefficients(curves))
+}
+
+/// The gait of published coefficients, with the published start and mapping.
+///
+/// # Errors
+/// [`CurveError`] where a coefficient is not a finite number.
+pub fn gait(name: &str, coefficients: &Coefficients) -> Result<Gait, CurveError> {
+    let curve = |parameter: usize| {
+        let mut numbers = coefficients.0[parameter].to_vec();
+        numbers.push(START[parameter]);
+        Curve::polynomial(numbers)
+    };
+    Ok(Gait {
+        name: name.to_owned(),
+        description: String::new(),
+        knee: curve(0)?,
+        hip: curve(1)?,
+        upper_arm: curve(2)?,
+        mapping: MappingVariant::Original,
+        arm: ArmMode::FlatForearm,
+        limits: LimitsPolicy::Clamp,
+    })
+}
+
+/// Equation (1) of [`prone::cost::published`] from a score of this problem, whose coefficients are
+/// within their bounds.
+pub fn cost(score: &Score) -> f64 {
+    score.value() + VIOLATION_COST * score.violation()
+}

@@ -1,0 +1,299 @@
+//! Runs of one solver on one problem, seed by seed, with a checkpoint that goes on as if nothing
+//! had happened.
+//!
+//! Runs follow one another; each is spread over the current rayon pool a generation at a time. A
+//! [`Search`] is its own checkpoint: serialised between generations and read back, it ends in the
+//! same bytes as one that was never interrupted.
+
+use std::ops::ControlFlow;
+
+use prone_optim::{
+    Candidate, CovarianceMatrix, CovarianceMatrixOptions, DifferentialEvolution,
+    DifferentialEvolutionOptions, Generation, Genetic, GeneticOptions, History, Problem, Run,
+    StopReason, Termination,
+};
+use serde::{Deserialize, Serialize};
+
+/// Which solver searches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Solver {
+    /// The default.
+    DifferentialEvolution,
+    /// The independent check.
+    CovarianceMatrix,
+    /// The published search, with MATLAB's defaults.
+    Genetic,
+}
+
+impl Solver {
+    /// Name in files and records.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::DifferentialEvolution => "differential-evolution",
+            Self::CovarianceMatrix => "cma-es",
+            Self::Genetic => "genetic",
+        }
+    }
+}
+
+/// Runs with seeds that follow one another.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Search {
+    budget: u64,
+    runs: Vec<SeededRun>,
+}
+
+/// One run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SeededRun {
+    /// Its seed.
+    pub seed: u64,
+    /// Every generation so far.
+    pub history: History,
+    state: State,
+    stopped: Option<StopReason>,
+}
+
+/// A solver's run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum State {
+    DifferentialEvolution(Run<DifferentialEvolution>),
+    CovarianceMatrix(Run<CovarianceMatrix>),
+    Genetic(Run<Genetic>),
+}
+
+/// Whether all runs came to their own end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SearchEnd {
+    /// They did.
+    Finished,
+    /// The caller stopped it; it can go on.
+    Interrupted,
+}
+
+impl Search {
+    /// `runs` runs of a solver with the seeds `seed`, `seed` + 1, …, of at most `budget`
+    /// evaluations each. The genetic algorithm ends after its own number of generations as well.
+    pub fn new(solver: Solver, seed: u64, runs: u64, budget: u64) -> Self {
+        let begin = |seed| SeededRun {
+            seed,
+            history: History::default(),
+            state: State::new(solver, seed),
+            stopped: None,
+        };
+        Self {
+            budget,
+            runs: (0..runs).map(|k| begin(seed.wrapping_add(k))).collect(),
+        }
+    }
+
+    /// Goes on until every run is at its end. `between` sees the search after each generation and
+    /// may stop it.
+    pub fn proceed<P: Problem>(
+        &mut self,
+        problem: &P,
+        mut between: impl FnMut(&Self) -> ControlFlow<()>,
+    ) -> SearchEnd {
+        for index in 0..self.runs.len() {
+            while self.runs[index].stopped.is_none() {
+                let budget = self.budget;
+                self.runs[index].advance(problem, budget);
+                if between(self).is_break() {
+                    return SearchEnd::Interrupted;
+                }
+            }
+        }
+        SearchEnd::Finished
+    }
+
+    /// The runs, in the order of their seeds.
+    pub fn runs(&self) -> &[SeededRun] {
+        &self.runs
+    }
+
+    /// Evaluations of all runs so far.
+    pub fn evaluations(&self) -> u64 {
+        self.runs.iter().map(SeededRun::evaluations).sum()
+    }
+
+    /// Evaluations that all runs may do.
+    pub fn allowance(&self) -> u64 {
+        self.budget.saturating_mul(self.runs.len() as u64)
+    }
+
+    /// The best point of all runs and the run that found it, the first of equals.
+    pub fn best(&self) -> Option<(&SeededRun, &Candidate)> {
+        let found = self
+            .runs
+            .iter()
+            .filter_map(|run| run.best().map(|best| (run, best)));
+        found.reduce(|best, next| {
+            if next.1.score.beats(&best.1.score) {
+                next
+            } else {
+                best
+            }
+        })
+    }
+}
+
+impl SeededRun {
+    /// One generation.
+    fn advance<P: Problem>(&mut self, problem: &P, budget: u64) {
+        let next = self.state.generation() + 1;
+        let own_end = self.state.own_generations();
+        let termination = Termination {
+            generations: Some(own_end.map_or(next, |own| next.min(own))),
+            ..Termination::after(budget)
+        };
+        let reason = self.state.proceed(problem, &termination, &mut self.history);
+        let goes_on = self.state.generation() == next && own_end.is_none_or(|own| next < own);
+        self.stopped = (!goes_on).then_some(reason);
+    }
+
+    /// The best point so far.
+    pub fn best(&self) -> Option<&Candidate> {
+        match &self.state {
+            State::DifferentialEvolution(run) => run.best(),
+            State::CovarianceMatrix(run) => run.best(),
+            State::Genetic(run) => run.best(),
+        }
+    }
+
+    /// Evaluations so far.
+    pub fn evaluations(&self) -> u64 {
+        self.history.0.last().map_or(0, |last| last.evaluations)
+    }
+
+    /// The last generation.
+    pub fn last(&self) -> Option<&Generation> {
+        self.history.0.last()
+    }
+}
+
+impl State {
+    fn new(solver: Solver, seed: u64) -> Self {
+        match solver {
+            Solver::DifferentialEvolution => {
+                let options = DifferentialEvolutionOptions::default();
+                Self::DifferentialEvolution(Run::new(DifferentialEvolution::new(options, seed)))
+            }
+            Solver::CovarianceMatrix => {
+                let options = CovarianceMatrixOptions::default();
+                Self::CovarianceMatrix(Run::new(CovarianceMatrix::new(options, seed)))
+            }
+            Solver::Genetic => {
+                Self::Genetic(Run::new(Genetic::new(GeneticOptions::default(), seed)))
+            }
+        }
+    }
+
+    fn generation(&self) -> u64 {
+        match self {
+            Self::DifferentialEvolution(run) => run.generation(),
+            Self::CovarianceMatrix(run) => run.generation(),
+            Self::Genetic(run) => run.generation(),
+        }
+    }
+
+    /// Generations after which the solver has nothing left to do.
+    fn own_generations(&self) -> Option<u64> {
+        matches!(self, Self::Genetic(_)).then(|| u64::from(GeneticOptions::default().generations))
+    }
+
+    fn proceed<P: Problem>(
+        &mut self,
+        problem: &P,
+        termination: &Termination,
+        history: &mut History,
+    ) -> StopReason {
+        match self {
+            Self::DifferentialEvolution(run) => run.proceed(problem, termination, history),
+            Self::CovarianceMatrix(run) => run.proceed(problem, termination, history),
+            Self::Genetic(run) => run.proceed(problem, termination, history),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use prone_optim::{Interval, Score};
+
+    use super::*;
+
+    /// A bowl whose lowest point is not feasible.
+    struct Bowl([Interval; 3]);
+
+    impl Bowl {
+        fn new() -> Self {
+            Self([Interval::new(-2.0, 3.0).unwrap(); 3])
+        }
+    }
+
+    impl Problem for Bowl {
+        fn bounds(&self) -> &[Interval] {
+            &self.0
+        }
+
+        fn evaluate(&self, point: &[f64]) -> Score {
+            let value = point.iter().map(|x| x * x).sum();
+            Score::new((1.0 - point[0]).max(0.0), value)
+        }
+    }
+
+    fn finished(solver: Solver) -> Search {
+        let mut search = Search::new(solver, 5, 2, 2000);
+        let end = search.proceed(&Bowl::new(), |_| ControlFlow::Continue(()));
+        assert_eq!(end, SearchEnd::Finished);
+        search
+    }
+
+    #[test]
+    fn an_interrupted_search_ends_like_an_uninterrupted_one() {
+        for solver in [
+            Solver::DifferentialEvolution,
+            Solver::CovarianceMatrix,
+            Solver::Genetic,
+        ] {
+            let whole = finished(solver);
+            let mut parts = Search::new(solver, 5, 2, 2000);
+            let mut steps = 0;
+            loop {
+                let end = parts.proceed(&Bowl::new(), |_| {
+                    steps += 1;
+                    if steps % 7 == 0 {
+                        ControlFlow::Break(())
+                    } else {
+                        ControlFlow::Continue(())
+                    }
+                });
+                let text = serde_json::to_string(&parts).unwrap();
+                parts = serde_json::from_str(&text).unwrap();
+                if end == SearchEnd::Finished {
+                    break;
+                }
+            }
+            assert_eq!(whole, parts, "{solver:?}");
+            assert!(whole.evaluations() <= whole.allowance());
+        }
+    }
+
+    #[test]
+    fn the_best_of_all_runs_is_feasible_and_near_the_minimum() {
+        let search = finished(Solver::DifferentialEvolution);
+        let (run, best) = search.best().unwrap();
+        assert!(best.score.violation() == 0.0);
+        assert!((best.score.value() - 1.0).abs() < 1e-3, "{best:?}");
+        assert!(run.seed == 5 || run.seed == 6);
+        assert_eq!(run.last().unwrap().best, best.score);
+    }
+
+    #[test]
+    fn the_genetic_algorithm_ends_after_its_own_generations() {
+        let mut search = Search::new(Solver::Genetic, 1, 1, 1_000_000);
+        search.proceed(&Bowl::new(), |_| ControlFlow::Continue(()));
+        assert_eq!(search.runs()[0].history.0.len(), 80);
+    }
+}
