@@ -1,5 +1,8 @@
 //! What may be typed.
 
+pub(crate) mod optimize;
+pub(crate) mod pricing;
+
 use std::path::PathBuf;
 
 use clap::{Parser, Subcommand};
@@ -17,6 +20,10 @@ use prone::gait::PhaseDuration;
 #[command(after_help = "\
 Examples:
   prone reproduce                         redo the published study, report in out/reproduce
+  prone optimize --objective torque --source dynamics --seed 1 --out out/torque
+                                          search a better gait
+  prone cost nominal --objective heat --source dynamics
+                                          price a gait
   prone gait show nominal                 a gait's joints, limits and heights
   prone robot check robots/nao            validate a robot and print its chain")]
 pub(crate) struct Args {
@@ -28,6 +35,10 @@ pub(crate) struct Args {
 pub(crate) enum Command {
     /// Redo the published torque study: simulate, price, compare, draw, report
     Reproduce(ReproduceArgs),
+    /// Search a better gait, and simulate what is found beside the published ones
+    Optimize(optimize::OptimizeArgs),
+    /// Price one gait
+    Cost(optimize::CostArgs),
     /// Look at gaits
     #[command(subcommand)]
     Gait(GaitCommand),

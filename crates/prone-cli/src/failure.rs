@@ -18,6 +18,8 @@ pub(crate) enum Failure {
     Work(anyhow::Error),
     /// The user stopped it: exit code 130.
     Stopped,
+    /// The user stopped it, and it can go on from here: exit code 130.
+    Suspended(String),
     /// Whoever reads our output has gone, as `head` does: no reason to complain.
     OutputClosed,
 }
@@ -39,6 +41,7 @@ impl Failure {
             Self::Input(error) => (format!("error: {error}"), 2),
             Self::Work(error) => (format!("error: {error}"), 1),
             Self::Stopped => ("stopped; nothing was written".to_owned(), STOPPED),
+            Self::Suspended(message) => (message, STOPPED),
             Self::OutputClosed => return ExitCode::SUCCESS,
         };
         // Where nobody hears, the exit code still speaks.

@@ -4,9 +4,13 @@
 //! work failed, 2 wrong input (nothing is written), 130 stopped by the user.
 
 mod args;
+mod checkpoint;
+mod cost;
 mod failure;
 mod gait;
 mod interrupt;
+mod optimize;
+mod pricing;
 mod progress;
 mod reproduce;
 mod robot;
@@ -24,6 +28,8 @@ fn main() -> ExitCode {
     let args = Args::parse();
     let done = match args.command {
         Command::Reproduce(args) => reproduce::run(&args),
+        Command::Optimize(args) => optimize::run(&args),
+        Command::Cost(args) => cost::run(&args),
         Command::Gait(GaitCommand::Show(args)) => gait::show(&args),
         Command::Robot(RobotCommand::Check(args)) => robot::check(&args),
         Command::Completions { shell } => completions(shell),

@@ -2,6 +2,7 @@
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use prone_study::optimize::search::Search;
 use prone_study::torque_study::Observer;
 
 use crate::Failure;
@@ -42,5 +43,39 @@ impl Observer for Progress {
 
     fn stop(&self) -> bool {
         interrupt::requested()
+    }
+}
+
+/// Progress of a search, in evaluations.
+pub(crate) struct SearchProgress {
+    bar: ProgressBar,
+}
+
+impl SearchProgress {
+    /// Shows how far a search is.
+    pub(crate) fn new(search: &Search) -> Result<Self, Failure> {
+        let bar = ProgressBar::new(search.allowance());
+        let template = "searching {bar:30} {pos}/{len} evaluations  {elapsed}, {eta} left  {msg}";
+        bar.set_style(ProgressStyle::with_template(template).map_err(Failure::work)?);
+        bar.set_position(search.evaluations());
+        bar.reset_eta();
+        Ok(Self { bar })
+    }
+
+    /// After a generation.
+    pub(crate) fn show(&self, search: &Search) {
+        self.bar.set_position(search.evaluations());
+        if let Some((run, best)) = search.best() {
+            let (violation, value) = (best.score.violation(), best.score.value());
+            self.bar.set_message(format!(
+                "best: torque {value:.4}, violations {violation:.4}, seed {}",
+                run.seed
+            ));
+        }
+    }
+
+    /// All is searched.
+    pub(crate) fn finish(&self) {
+        self.bar.finish_and_clear();
     }
 }

@@ -17,6 +17,7 @@ mod font;
 mod panel;
 mod parameters;
 pub(crate) mod raster;
+mod search;
 mod selection;
 mod sheet;
 mod style;
@@ -24,6 +25,8 @@ mod svg;
 #[cfg(test)]
 mod tests;
 mod torque;
+
+pub use search::{Scores, figures as search_figures};
 
 use crate::record::{ChainRecord, CostRecord, PullRecord};
 use sheet::Sheet;

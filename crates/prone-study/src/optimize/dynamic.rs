@@ -5,8 +5,8 @@
 //! control steps, as in [`crate::record`]; its integral is that of the published study
 //! ([`prone::cost::squared_torque_integral`]).
 //!
-//! What the planned chain breaks is graded first ([`graded::violations`]), and such a gait is not
-//! simulated. The same holds for one that the robot cannot be commanded or that makes the
+//! What the planned chain breaks is graded first ([`graded::violations`]), and a search does not
+//! simulate such a gait. The same holds for one that the robot cannot be commanded or that makes the
 //! simulation diverge: it has the rule [`Rule::Torque`] broken, and a violation of at least 1 puts
 //! it behind every gait that was simulated. The share of the weight that trunk and legs carry,
 //!
@@ -139,19 +139,32 @@ impl<'w> DynamicPricing<'w> {
 
 impl Pricing for DynamicPricing<'_> {
     fn price(&self, gait: &Gait) -> Price {
-        let DynamicSetup {
-            rules,
-            duration,
-            body_share: allowed,
-            ..
-        } = self.setup;
-        let mut violations = rules.broken(self.world.robot(), &self.mapping, gait, duration);
+        let violations = self.broken(gait);
         if violations.total() > 0.0 {
             return unsimulated(violations);
         }
+        self.simulated(gait, violations)
+    }
+
+    fn quote(&self, gait: &Gait) -> Price {
+        self.simulated(gait, self.broken(gait))
+    }
+}
+
+impl DynamicPricing<'_> {
+    /// What the planned chain breaks.
+    fn broken(&self, gait: &Gait) -> Violations {
+        let DynamicSetup {
+            rules, duration, ..
+        } = self.setup;
+        rules.broken(self.world.robot(), &self.mapping, gait, duration)
+    }
+
+    fn simulated(&self, gait: &Gait, mut violations: Violations) -> Price {
         let Ok(trial) = self.trial(gait) else {
             return unsimulated(violations);
         };
+        let allowed = self.setup.body_share;
         if allowed < 1.0 {
             let excess = (trial.body_share - allowed) / (1.0 - allowed);
             violations.add(Rule::BodyShare, excess);

@@ -216,6 +216,10 @@ fn statics<'a>(world: &'a World, base: &Gait) -> Result<StaticTorques<'a>, Price
     )?)
 }
 
+/// What a hip may be lower than the base gait's, m: the published gaits print five digits of the
+/// same first pose, which is 5e-7 m.
+const HIP_TOLERANCE: f64 = 1e-5;
+
 /// The lowest hip of a gait's planned chain, m: a clearance that gaits about it can keep.
 ///
 /// # Errors
@@ -228,8 +232,7 @@ pub fn lowest_hip(world: &World, gait: &Gait) -> Result<Clearance, MappingError>
         .filter_map(|at| chain.close(at).ok())
         .map(|angles| chain.posture(&angles).hip.z());
     let lowest = heights.fold(f64::INFINITY, f64::min);
-    // A hip at its own height must not break the rule by rounding.
-    Ok(Clearance::Hip(lowest - 1e-9))
+    Ok(Clearance::Hip(lowest - HIP_TOLERANCE))
 }
 
 /// The share of the weight on trunk and legs in a gait's simulated pull, 0 to 1.
@@ -259,7 +262,7 @@ impl Pricer<'_> {
     /// [`NotCubic`] by the published objective.
     pub fn price(&self, gait: &Gait) -> Result<Priced, NotCubic> {
         match self {
-            Self::Graded(pricing) => Ok(pricing.price(gait).into()),
+            Self::Graded(pricing) => Ok(pricing.quote(gait).into()),
             Self::Published { objective, .. } => {
                 let coefficients =
                     published_problem::coefficients_of(gait).ok_or_else(|| NotCubic {

@@ -10,8 +10,14 @@ use crate::gait_sheet;
 
 /// Prices gaits of one mapping.
 pub trait Pricing: Sync {
-    /// The price; depends on nothing but the gait.
+    /// The price as a search needs it: what is already beaten by its violations may lack a torque
+    /// part. Depends on nothing but the gait.
     fn price(&self, gait: &Gait) -> Price;
+
+    /// The price with a torque part wherever there can be one, whatever rules are broken.
+    fn quote(&self, gait: &Gait) -> Price {
+        self.price(gait)
+    }
 }
 
 /// Intervals in which a phase is held against the rules, as in the published objective twice over:

@@ -1,0 +1,142 @@
+//! What may be typed after `prone cost` and `prone optimize`.
+
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+
+use prone_study::optimize::form::GaitForm;
+
+use super::pricing::PricingArgs;
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  prone cost nominal --objective torque --source dynamics
+  prone cost optimal --objective published --source table.csv --json
+  prone cost my-gait.toml --objective heat --source statics --per metre
+
+Torque has the sign of the published recordings and is that of the right side. Violations are kept
+apart from torque: the sum of what is broken, in shares of the limit (published: violated samples).")]
+pub(crate) struct CostArgs {
+    /// A gait that ships with prone, or a gait file
+    #[arg(value_name = "GAIT")]
+    pub(crate) gait: String,
+    #[command(flatten)]
+    pub(crate) pricing: PricingArgs,
+    /// Print {\"cost\", \"torque\", \"violations\", …}
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  prone optimize --objective torque --source dynamics --seed 1 --out out/torque
+  prone optimize --objective torque --source dynamics --gait-form bspline:8 --ends free --seed 1 --runs 5 --out out/spline
+  prone optimize --objective published --source table.csv --seed 1 --runs 20 --out out/published
+  prone optimize --objective published --source table.csv --solver ga --seed 1 --out out/replication
+  prone optimize --objective heat --source statics --seed 7 --budget 20000 --out out/heat --resume
+
+The folder appears when all is done: gait.toml (for every other command), result.json, history.csv,
+confirmation.csv (the found gait simulated at other durations and in both contact regimes, beside
+nominal and optimal), figures, run.json, timing.json. Until then the search is kept in
+OUT.checkpoint.json beside it; after Ctrl-C or a kill, --resume goes on from there and ends in the
+same bytes as a search that was never stopped. The same seed gives the same bytes on any number of
+threads, except with --time-budget.")]
+pub(crate) struct OptimizeArgs {
+    #[command(flatten)]
+    pub(crate) pricing: PricingArgs,
+    /// Curves that are searched: `cubic`, or `bspline:N` with N control points each
+    #[arg(long, value_name = "FORM", value_parser = gait_form, default_value = "cubic")]
+    pub(crate) gait_form: GaitForm,
+    /// Whether knee and hip begin and end as in the gait of --from
+    #[arg(long, value_enum, default_value = "fixed")]
+    pub(crate) ends: EndsName,
+    /// Method of search
+    #[arg(long, value_enum, default_value = "de")]
+    pub(crate) solver: SolverName,
+    /// Seed of the first run; the others follow
+    #[arg(long, value_name = "S")]
+    pub(crate) seed: u64,
+    /// Independent runs, with the seeds S, S+1, …; the best of all is kept
+    #[arg(long, value_name = "R", default_value = "1", value_parser = clap::value_parser!(u64).range(1..=1000))]
+    pub(crate) runs: u64,
+    /// Most evaluations of each run [default: 3000 with dynamics, else 100000]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
+    pub(crate) budget: Option<u64>,
+    /// Most seconds of searching in all; what is found by then is kept
+    #[arg(long, value_name = "S", value_parser = positive)]
+    pub(crate) time_budget: Option<f64>,
+    /// Go on from the checkpoint of an interrupted search, if there is one
+    #[arg(long)]
+    pub(crate) resume: bool,
+    /// Durations at which the found gait is simulated, s
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = super::phase_duration, default_value = "1,2,3,4,5,6,7,8,9,10")]
+    pub(crate) confirm_durations: Vec<prone::gait::PhaseDuration>,
+    /// Name of the found gait [default: best-OBJECTIVE]
+    #[arg(long, value_name = "NAME", value_parser = name)]
+    pub(crate) name: Option<String>,
+    /// Result folder; made, or replaced if it holds an earlier result
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    /// Worker threads [default: all cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
+    /// Print result.json instead of a table
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Whether ends are kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum EndsName {
+    /// They do
+    Fixed,
+    /// They are searched too; those of the upper arm, which set the stroke, are not
+    Free,
+}
+
+/// A solver's name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SolverName {
+    /// Differential evolution, with restarts
+    De,
+    /// CMA-ES of another library: the independent check
+    CmaEs,
+    /// Genetic algorithm with MATLAB's defaults, 200 × 80: the published search
+    Ga,
+}
+
+fn gait_form(text: &str) -> Result<GaitForm, String> {
+    if text == "cubic" {
+        return Ok(GaitForm::Cubic);
+    }
+    let points = text.strip_prefix("bspline:").and_then(|n| n.parse().ok());
+    match points {
+        Some(points @ 4..=32) => Ok(GaitForm::BSpline { points }),
+        Some(points) => Err(format!("{points} control points are outside 4..32")),
+        None => Err("it is cubic or bspline:N".to_owned()),
+    }
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    let seconds = super::seconds(text)?;
+    if seconds > 0.0 && seconds.is_finite() {
+        Ok(seconds)
+    } else {
+        Err("not a number of seconds greater than zero".to_owned())
+    }
+}
+
+fn name(text: &str) -> Result<String, String> {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_".contains(c);
+    if text.is_empty() || !text.chars().all(plain) {
+        return Err("a gait's name is made of letters, digits, - and _".to_owned());
+    }
+    if ["nominal", "optimal"].contains(&text) {
+        return Err(
+            "nominal and optimal are the published gaits, which it is compared with".to_owned(),
+        );
+    }
+    Ok(text.to_owned())
+}

@@ -1,0 +1,127 @@
+//! What may be typed about a price: `prone cost` and `prone optimize` take the same.
+
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+
+use prone::gait::PhaseDuration;
+
+/// What is minimised, and by what it is measured.
+#[derive(Debug, clap::Args)]
+pub(crate) struct PricingArgs {
+    /// What a gait is priced by
+    #[arg(long, value_enum)]
+    pub(crate) objective: ObjectiveName,
+    /// Where torques come from: `dynamics` (each gait simulated, regime torque-study, from its own
+    /// first pose), `statics` (the static solver), or a torque map's CSV file
+    #[arg(long, value_name = "FILE|statics|dynamics")]
+    pub(crate) source: String,
+    /// torque: weights of ankle, knee, hip, shoulder [default: 1,1,1,1]
+    #[arg(
+        long,
+        value_name = "W,W,W,W",
+        value_delimiter = ',',
+        allow_negative_numbers = true
+    )]
+    pub(crate) weights: Option<Vec<f64>>,
+    /// torque, heat: per phase, or per metre of planned advance [default: phase]
+    #[arg(long, value_enum)]
+    pub(crate) per: Option<PerName>,
+    /// Duration of the pull, s [default: 3]
+    #[arg(long, value_name = "S", value_parser = super::phase_duration, allow_negative_numbers = true)]
+    pub(crate) duration: Option<PhaseDuration>,
+    /// Fastest command of ankle, knee, hip and shoulder, degrees per pull, or `none` [default: 200]
+    #[arg(long, value_name = "DEG|none", value_parser = rate, allow_negative_numbers = true)]
+    pub(crate) rate_deg_per_phase: Option<f64>,
+    /// What stays above the floor in the plan: `none`, `hip:MM` (the hip's centre), `body:MM` (trunk
+    /// and legs by their shapes) or `base` (the hip, no lower than in the gait of --from)
+    /// [default: none with dynamics, else base]
+    #[arg(long, value_name = "RULE", value_parser = clearance)]
+    pub(crate) clearance: Option<ClearanceName>,
+    /// dynamics: trunk and legs carry no larger share of the weight than in this gait
+    /// [default: optimal, or the gait of --from on a robot without a published chain]
+    #[arg(long, value_name = "GAIT")]
+    pub(crate) body_share_of: Option<String>,
+    /// published: least height of the hip's centre, mm [default: 40]
+    #[arg(long, value_name = "MM", value_parser = finite, allow_negative_numbers = true)]
+    pub(crate) hip_threshold_mm: Option<f64>,
+    /// published: how far outside the table's limits an angle may lie, rad [default: 0]
+    #[arg(long, value_name = "RAD", value_parser = finite, allow_negative_numbers = true)]
+    pub(crate) limit_tolerance_rad: Option<f64>,
+    /// Gait whose mapping, arms and ends of the pull hold: a name or a file
+    #[arg(long, value_name = "GAIT", default_value = "nominal")]
+    pub(crate) from: String,
+    /// Robot folder with robot.toml and its model [default: the NAO that ships with prone]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) robot: Option<PathBuf>,
+}
+
+/// An objective's name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ObjectiveName {
+    /// The published cost, to the digit: 1000 per violated sample, plus weighted squared torque
+    Published,
+    /// ∫ Σ w τ² dt, N²·m²·s
+    Torque,
+    /// Largest torque over the maker's effort limit
+    Peak,
+    /// ∫ Σ (τ/nominal torque)² dt, s: what warms the motors
+    Heat,
+}
+
+/// What a price is divided by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum PerName {
+    /// One pull
+    Phase,
+    /// One metre
+    Metre,
+}
+
+/// A clearance as typed, m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum ClearanceName {
+    None,
+    Base,
+    Hip(f64),
+    Body(f64),
+}
+
+fn finite(text: &str) -> Result<f64, String> {
+    let number: f64 = text.trim().parse().map_err(|_| "not a number".to_owned())?;
+    if number.is_finite() {
+        Ok(number)
+    } else {
+        Err("not a finite number".to_owned())
+    }
+}
+
+fn rate(text: &str) -> Result<f64, String> {
+    if text == "none" {
+        return Ok(f64::INFINITY);
+    }
+    let degrees = finite(text)?;
+    if degrees > 0.0 {
+        Ok(degrees.to_radians())
+    } else {
+        Err("a rate is greater than zero".to_owned())
+    }
+}
+
+fn clearance(text: &str) -> Result<ClearanceName, String> {
+    let metres = |text: &str| {
+        let mm = finite(text)?;
+        if mm > 0.0 {
+            Ok(mm / 1e3)
+        } else {
+            Err("a clearance is greater than zero".to_owned())
+        }
+    };
+    match text.split_once(':') {
+        None if text == "none" => Ok(ClearanceName::None),
+        None if text == "base" => Ok(ClearanceName::Base),
+        Some(("hip", mm)) => metres(mm).map(ClearanceName::Hip),
+        Some(("body", mm)) => metres(mm).map(ClearanceName::Body),
+        _ => Err("it is none, base, hip:MM or body:MM".to_owned()),
+    }
+}

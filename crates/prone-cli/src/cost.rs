@@ -1,0 +1,70 @@
+//! `prone cost`.
+
+use std::io::Write as _;
+
+use anyhow::anyhow;
+
+use prone_study::optimize::pricer::{self, Aim, Priced};
+
+use crate::Failure;
+use crate::args::optimize::CostArgs;
+use crate::pricing::Pricing;
+
+pub(crate) fn run(args: &CostArgs) -> Result<(), Failure> {
+    let gait = crate::gait::find(&args.gait)?;
+    let pricing = Pricing::new(&args.pricing)?;
+    let graded = matches!(pricing.aim, Aim::Graded(_));
+    if graded && (gait.mapping, gait.arm) != (pricing.base.mapping, pricing.base.arm) {
+        return Err(Failure::Input(anyhow!(
+            "gait {} has mapping {} and arms {}, but {} of --from has {} and {}: name a gait of the same kind there, such as {} itself",
+            gait.name,
+            gait.mapping.name(),
+            gait.arm.name(),
+            pricing.base.name,
+            pricing.base.mapping.name(),
+            pricing.base.arm.name(),
+            args.gait
+        )));
+    }
+    let pricer = pricer::pricer(&pricing.world, &pricing.terms()).map_err(Failure::input)?;
+    let price = pricer.price(&gait).map_err(Failure::input)?;
+    let mut out = std::io::stdout().lock();
+    if args.json {
+        let text = serde_json::to_string_pretty(&price).map_err(Failure::work)?;
+        writeln!(out, "{text}")?;
+    } else {
+        print(&gait.name, &price, pricing.objective().unit(), &mut out)?;
+    }
+    Ok(())
+}
+
+fn print(
+    gait: &str,
+    price: &Priced,
+    unit: &str,
+    out: &mut impl std::io::Write,
+) -> std::io::Result<()> {
+    let number = |value: Option<f64>| {
+        value.map_or_else(|| "not known".to_owned(), |value| format!("{value:.4}"))
+    };
+    writeln!(out, "{gait}")?;
+    writeln!(out, "  cost        {}", number(price.cost))?;
+    writeln!(out, "  torque      {} {unit}", number(price.torque))?;
+    writeln!(out, "  violations  {}", trimmed(price.violations))?;
+    for broken in &price.broken {
+        writeln!(
+            out,
+            "    {:<12}{} times, {} in all",
+            broken.rule,
+            broken.count,
+            trimmed(broken.sum)
+        )?;
+    }
+    Ok(())
+}
+
+/// Four decimals, without zeros at the end.
+fn trimmed(value: f64) -> String {
+    let text = format!("{value:.4}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}

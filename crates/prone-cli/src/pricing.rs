@@ -1,0 +1,302 @@
+//! What was typed about a price, checked and loaded.
+
+use std::path::Path;
+
+use anyhow::anyhow;
+use serde_json::{Value, json};
+use sha2::{Digest as _, Sha256};
+
+use prone::cost::published::PublishedRules;
+use prone::gait::{Gait, PhaseDuration};
+use prone::torque_map::{self, TorqueMap};
+use prone_files::text_file;
+use prone_sim::{LoadedRobot, Regime, World};
+use prone_study::optimize::objective::Objective;
+use prone_study::optimize::pricer::{self, Aim, Source, Terms};
+use prone_study::optimize::pricing::{ChainRules, Clearance, Share};
+
+use crate::Failure;
+use crate::args::pricing::{ClearanceName, ObjectiveName, PerName, PricingArgs};
+
+/// Duration of a pull where none is asked for, s.
+const DURATION_S: f64 = 3.0;
+
+/// Fastest command where none is asked for, degrees per pull: what a search may ask of a joint is
+/// what the published optimum asks of the shoulder (206°), rounded down.
+const RATE_DEG_PER_PHASE: f64 = 200.0;
+
+/// Gait whose body share is the limit where none is asked for.
+const SHARE_OF: &str = "optimal";
+
+/// Everything that decides a price, loaded.
+pub(crate) struct Pricing {
+    pub(crate) robot: LoadedRobot,
+    pub(crate) world: World,
+    pub(crate) aim: Aim,
+    pub(crate) base: Gait,
+    pub(crate) duration: PhaseDuration,
+    source: LoadedSource,
+    share: Share,
+    rules: ChainRules,
+    body_share: f64,
+    /// For `run.json` and checkpoints.
+    pub(crate) record: Value,
+}
+
+enum LoadedSource {
+    Map { map: Box<TorqueMap>, hash: String },
+    Statics,
+    Dynamics,
+}
+
+impl Pricing {
+    /// Checks and loads what was typed.
+    pub(crate) fn new(args: &PricingArgs) -> Result<Self, Failure> {
+        let aim = aim(args)?;
+        let source = source(&args.source)?;
+        let base = crate::gait::find(&args.from)?;
+        let robot = crate::robot::load(args.robot.as_deref())?;
+        let world = World::new(&robot, Regime::TORQUE_STUDY).map_err(Failure::input)?;
+        let duration = match args.duration {
+            Some(duration) => duration,
+            None => PhaseDuration::new(DURATION_S).map_err(Failure::input)?,
+        };
+        let clearance = clearance(args, &source, &world, &base)?;
+        let (body_share, share_of) = body_share(args, aim, &source, &world, &base, duration)?;
+        let share = match args.per {
+            None | Some(PerName::Phase) => Share::Phase,
+            Some(PerName::Metre) => Share::Metre,
+        };
+        let rules = ChainRules {
+            rate: args
+                .rate_deg_per_phase
+                .unwrap_or(RATE_DEG_PER_PHASE.to_radians()),
+            clearance,
+        };
+        let mut pricing = Self {
+            robot,
+            world,
+            aim,
+            base,
+            duration,
+            source,
+            share,
+            rules,
+            body_share,
+            record: Value::Null,
+        };
+        pricing.record = pricing.record(args, share_of.as_deref());
+        Ok(pricing)
+    }
+
+    /// The terms of the price.
+    pub(crate) fn terms(&self) -> Terms<'_> {
+        Terms {
+            aim: self.aim,
+            source: match &self.source {
+                LoadedSource::Map { map, .. } => Source::Map(map),
+                LoadedSource::Statics => Source::Statics,
+                LoadedSource::Dynamics => Source::Dynamics,
+            },
+            base: &self.base,
+            share: self.share,
+            rules: self.rules,
+            duration: self.duration,
+            body_share: self.body_share,
+        }
+    }
+
+    /// Whether gaits are simulated one by one.
+    pub(crate) fn is_dynamic(&self) -> bool {
+        matches!(self.source, LoadedSource::Dynamics)
+    }
+
+    /// The torque objective, the published one's weights included.
+    pub(crate) fn objective(&self) -> Objective {
+        match self.aim {
+            Aim::Graded(objective) => objective,
+            Aim::Published(_) => Objective::Torque {
+                weights: prone::cost::published::WEIGHTS,
+            },
+        }
+    }
+
+    fn record(&self, args: &PricingArgs, share_of: Option<&str>) -> Value {
+        let source = match &self.source {
+            LoadedSource::Map { hash, .. } => json!({ "file": args.source, "sha256": hash }),
+            LoadedSource::Statics => json!("statics"),
+            LoadedSource::Dynamics => json!("dynamics"),
+        };
+        let aim = match self.aim {
+            Aim::Published(rules) => json!({
+                "objective": "published",
+                "hip_threshold_mm": rules.hip_threshold * 1e3,
+                "limit_tolerance_rad": rules.limit_tolerance,
+            }),
+            Aim::Graded(objective) => json!({
+                "objective": objective.name(),
+                "weights": match objective {
+                    Objective::Torque { weights } => Some(weights),
+                    _ => None,
+                },
+                "per": self.share.name(),
+                "duration_s": self.duration.seconds(),
+                "rate_deg_per_phase": Some(self.rules.rate.to_degrees()).filter(|r| r.is_finite()),
+                "clearance": match self.rules.clearance {
+                    Clearance::Free => json!("none"),
+                    Clearance::Hip(height) => json!({ "hip_mm": height * 1e3 }),
+                    Clearance::Body(height) => json!({ "body_mm": height * 1e3 }),
+                },
+                "body_share_of": share_of,
+                "body_share_percent": share_of.map(|_| self.body_share * 100.0),
+                "regime": self.world.regime().name,
+                "start": "the gait's own first pose, settled",
+            }),
+        };
+        json!({
+            "aim": aim,
+            "source": source,
+            "from": self.base.name,
+            "mapping": self.base.mapping.name(),
+            "arm": self.base.arm.name(),
+            "robot": {
+                "name": self.robot.robot().name,
+                "folder": self.robot.files().folder,
+                "sha256": self.robot.files().hash(),
+            },
+        })
+    }
+}
+
+/// The objective; options of the other kind are refused, not ignored.
+fn aim(args: &PricingArgs) -> Result<Aim, Failure> {
+    let refuse = |given: &[(&str, bool)], reason: &str| {
+        let option = given.iter().find(|(_, given)| *given);
+        option.map_or(Ok(()), |(option, _)| {
+            Err(Failure::Input(anyhow!("{option} {reason}")))
+        })
+    };
+    if args.objective == ObjectiveName::Published {
+        refuse(
+            &[
+                ("--weights", args.weights.is_some()),
+                ("--per", args.per.is_some()),
+                ("--duration", args.duration.is_some()),
+                ("--rate-deg-per-phase", args.rate_deg_per_phase.is_some()),
+                ("--clearance", args.clearance.is_some()),
+                ("--body-share-of", args.body_share_of.is_some()),
+            ],
+            "does not go with --objective published, which has rules of its own",
+        )?;
+        let published = PublishedRules::PUBLISHED;
+        return Ok(Aim::Published(PublishedRules {
+            hip_threshold: args
+                .hip_threshold_mm
+                .map_or(published.hip_threshold, |mm| mm / 1e3),
+            limit_tolerance: args
+                .limit_tolerance_rad
+                .unwrap_or(published.limit_tolerance),
+        }));
+    }
+    refuse(
+        &[
+            ("--hip-threshold-mm", args.hip_threshold_mm.is_some()),
+            ("--limit-tolerance-rad", args.limit_tolerance_rad.is_some()),
+        ],
+        "goes with --objective published only",
+    )?;
+    let weights = match args.weights.as_deref() {
+        None => [1.0; 4],
+        Some(&[a, k, h, s]) if [a, k, h, s].iter().all(|w| w.is_finite() && *w >= 0.0) => {
+            [a, k, h, s]
+        }
+        Some(weights) => {
+            return Err(Failure::Input(anyhow!(
+                "--weights takes four numbers that are not negative (ankle, knee, hip, shoulder), not {weights:?}"
+            )));
+        }
+    };
+    Ok(Aim::Graded(match args.objective {
+        ObjectiveName::Torque | ObjectiveName::Published => Objective::Torque { weights },
+        other => {
+            refuse(
+                &[("--weights", args.weights.is_some())],
+                "goes with --objective torque only",
+            )?;
+            if other == ObjectiveName::Peak {
+                refuse(
+                    &[("--per", args.per == Some(PerName::Metre))],
+                    "metre does not go with --objective peak: a peak does not add up",
+                )?;
+                Objective::Peak
+            } else {
+                Objective::Heat
+            }
+        }
+    }))
+}
+
+fn source(given: &str) -> Result<LoadedSource, Failure> {
+    match given {
+        "statics" => return Ok(LoadedSource::Statics),
+        "dynamics" => return Ok(LoadedSource::Dynamics),
+        _ => {}
+    }
+    let text = text_file::read(Path::new(given)).map_err(|error| {
+        Failure::Input(anyhow!(
+            "--source {given} is neither statics nor dynamics, and cannot be read: {error}"
+        ))
+    })?;
+    let map =
+        torque_map::parse(&text).map_err(|error| Failure::Input(anyhow!("{given}: {error}")))?;
+    let hash = Sha256::digest(&text);
+    Ok(LoadedSource::Map {
+        map: Box::new(map),
+        hash: hash.iter().map(|byte| format!("{byte:02x}")).collect(),
+    })
+}
+
+fn clearance(
+    args: &PricingArgs,
+    source: &LoadedSource,
+    world: &World,
+    base: &Gait,
+) -> Result<Clearance, Failure> {
+    let default = match source {
+        // There the share of the weight on the body says what is low.
+        LoadedSource::Dynamics => ClearanceName::None,
+        _ => ClearanceName::Base,
+    };
+    Ok(match args.clearance.unwrap_or(default) {
+        ClearanceName::None => Clearance::Free,
+        ClearanceName::Hip(height) => Clearance::Hip(height),
+        ClearanceName::Body(height) => Clearance::Body(height),
+        ClearanceName::Base => pricer::lowest_hip(world, base).map_err(Failure::input)?,
+    })
+}
+
+/// The largest share of the weight on trunk and legs, and the gait it is from.
+fn body_share(
+    args: &PricingArgs,
+    aim: Aim,
+    source: &LoadedSource,
+    world: &World,
+    base: &Gait,
+    duration: PhaseDuration,
+) -> Result<(f64, Option<String>), Failure> {
+    if !matches!((aim, source), (Aim::Graded(_), LoadedSource::Dynamics)) {
+        return match args.body_share_of {
+            None => Ok((1.0, None)),
+            Some(_) => Err(Failure::Input(anyhow!(
+                "--body-share-of goes with --source dynamics only: nothing else knows what carries the weight"
+            ))),
+        };
+    }
+    let gait = match &args.body_share_of {
+        Some(name) => crate::gait::find(name)?,
+        None if world.robot().chain.published.is_some() => crate::gait::find(SHARE_OF)?,
+        None => base.clone(),
+    };
+    let share = pricer::body_share(world, &gait, duration).map_err(Failure::input)?;
+    Ok((share, Some(gait.name)))
+}
