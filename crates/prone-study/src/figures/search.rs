@@ -57,24 +57,29 @@ fn generations(search: &Search, objective: &Objective, scores: Scores) -> Option
     let unit = objective.unit();
     let (left, right) = match scores {
         Scores::Published => (
-            panel(run, "violated samples", |row| {
+            panel(run, "broken rules", "violated samples", |row| {
                 (Some(row.best.violation()), Some(row.mean_violation))
             }),
-            panel(run, &format!("torque part, {unit}"), |row| {
+            panel(run, "torque part", &format!("Σ w τ² dt, {unit}"), |row| {
                 (Some(row.best.value()), Some(row.mean_value))
             }),
         ),
         Scores::Graded => (
-            panel(run, "violations, shares of limits", |row| {
+            panel(run, "broken rules", "excess, shares of limits", |row| {
                 (Some(row.best.violation()), None)
             }),
-            panel(run, &format!("{}, {unit}", objective.name()), |row| {
-                let feasible = row.best.violation() == 0.0;
-                (
-                    feasible.then(|| row.best.value()),
-                    (row.feasible > 0).then_some(row.mean_feasible_value),
-                )
-            }),
+            panel(
+                run,
+                "gaits that keep the rules",
+                &format!("{}, {unit}", objective.name()),
+                |row| {
+                    let feasible = row.best.violation() == 0.0;
+                    (
+                        feasible.then(|| row.best.value()),
+                        (row.feasible > 0).then_some(row.mean_feasible_value),
+                    )
+                },
+            ),
         ),
     };
     let key = [("best of the run so far", 0), ("mean of the generation", 1)];
@@ -121,6 +126,7 @@ fn stroke(index: usize) -> Stroke {
 
 fn panel(
     run: &SeededRun,
+    title: &str,
     label: &str,
     of: impl Fn(&prone_optim::Generation) -> (Option<f64>, Option<f64>),
 ) -> Panel {
@@ -133,35 +139,22 @@ fn panel(
         best.extend(of_best.map(|value| (generation, value)));
         mean.extend(of_mean.map(|value| (generation, value)));
     }
-    // Means of early generations would flatten everything that follows.
-    let settled = best.iter().map(|point| point.1);
     let last = rows.last().map_or(1.0, |row| row.generation as f64);
-    let high = 3.0 * best.last().map_or(1.0, |point: &Point| point.1).max(1e-9);
-    let shown: Vec<Point> = mean.into_iter().filter(|point| point.1 <= high).collect();
-    let best_shown: Vec<Point> = best
-        .iter()
-        .copied()
-        .filter(|point| point.1 <= high)
-        .collect();
-    let values: Vec<f64> = if best_shown.is_empty() {
-        settled.collect()
+    let x = Axis::exactly("generation", 0.0, last);
+    let values = best.iter().chain(&mean).map(|point: &Point| point.1);
+    // Where nothing is broken all along, an axis from 0 to 1 says so.
+    let highest = values.clone().fold(0.0, f64::max);
+    let y = if highest > 0.0 {
+        Axis::covering(label, values)
     } else {
-        let all = best_shown.iter().chain(&shown);
-        all.map(|point| point.1).collect()
+        Axis::exactly(label, 0.0, 1.0)
     };
     let curve = |points, index| Curve {
         points,
         stroke: stroke(index),
         marker: None,
     };
-    let best = if best_shown.is_empty() {
-        best
-    } else {
-        best_shown
-    };
-    let curves = vec![curve(shown, 1), curve(best, 0)];
-    let x = Axis::exactly("generation", 0.0, last);
-    Panel::new(label, x, Axis::covering(label, values), curves)
+    Panel::new(title, x, y, vec![curve(mean, 1), curve(best, 0)])
 }
 
 /// Cost over the first gait's against duration, a panel per regime.

@@ -1,0 +1,187 @@
+//! Whole searches of `prone optimize`: interrupted, resumed, on any number of threads.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Command, Output, Stdio};
+use std::time::Duration;
+
+fn prone(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_prone"))
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+fn begun(arguments: &[&str]) -> Child {
+    Command::new(env!("CARGO_BIN_EXE_prone"))
+        .args(arguments)
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap()
+}
+
+fn succeeded(done: &Output) {
+    let message = String::from_utf8_lossy(&done.stderr);
+    assert!(done.status.success(), "{message}");
+}
+
+/// All files of a result but the one that may differ.
+fn result(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut files = BTreeMap::new();
+    for below in [folder.to_owned(), folder.join("figures")] {
+        for entry in fs::read_dir(below).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_file() {
+                let name = path.strip_prefix(folder).unwrap();
+                files.insert(name.display().to_string(), fs::read(&path).unwrap());
+            }
+        }
+    }
+    assert!(files.remove("timing.json").is_some());
+    files
+}
+
+/// A search of a few seconds: the statics of each gait, two runs.
+const SEARCH: [&str; 14] = [
+    "optimize",
+    "--objective",
+    "heat",
+    "--source",
+    "statics",
+    "--seed",
+    "3",
+    "--runs",
+    "2",
+    "--budget",
+    "1500",
+    "--confirm-durations",
+    "0.5",
+    "--out",
+];
+
+#[test]
+fn a_killed_search_resumes_to_the_bytes_of_an_uninterrupted_one() {
+    let home = tempfile::tempdir().unwrap();
+    let at = |name: &str| home.path().join(name).display().to_string();
+    let (whole, parts) = (at("whole"), at("parts"));
+    let search = |out: &str, more: &[&str]| {
+        let mut arguments = SEARCH.to_vec();
+        arguments.push(out);
+        arguments.extend(more);
+        arguments.iter().map(|a| (*a).to_owned()).collect::<Vec<_>>()
+    };
+    let run = |out: &str, more: &[&str]| {
+        let arguments = search(out, more);
+        prone(&arguments.iter().map(String::as_str).collect::<Vec<_>>())
+    };
+    succeeded(&run(&whole, &["--threads", "1"]));
+
+    let checkpoint = home.path().join("parts.checkpoint.json");
+    let arguments = search(&parts, &["--threads", "2"]);
+    let mut killed = begun(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
+    while !checkpoint.exists() {
+        assert!(killed.try_wait().unwrap().is_none(), "it ended too soon");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    killed.kill().unwrap();
+    killed.wait().unwrap();
+    assert!(!Path::new(&parts).exists(), "half a result");
+
+    // A checkpoint belongs to one search.
+    let other = run(&parts, &["--resume", "--ends", "free"]);
+    assert_eq!(other.status.code(), Some(2));
+    let message = String::from_utf8(other.stderr).unwrap();
+    assert!(
+        message.contains("ends was \"fixed\", and is \"free\" now"),
+        "{message}"
+    );
+
+    let resumed = run(&parts, &["--resume"]);
+    succeeded(&resumed);
+    let message = String::from_utf8(resumed.stderr).unwrap();
+    assert!(message.starts_with("going on after "), "{message}");
+    assert!(!checkpoint.exists());
+    let (whole, parts) = (result(Path::new(&whole)), result(Path::new(&parts)));
+    assert_eq!(
+        whole.keys().collect::<Vec<_>>(),
+        parts.keys().collect::<Vec<_>>()
+    );
+    for (name, bytes) in whole {
+        assert!(bytes == parts[&name], "{name} differs");
+    }
+}
+
+#[test]
+fn a_stopped_search_says_how_to_go_on() {
+    let home = tempfile::tempdir().unwrap();
+    let out = home.path().join("result").display().to_string();
+    let checkpoint = home.path().join("result.checkpoint.json");
+    let mut arguments = SEARCH.to_vec();
+    arguments[10] = "1000000";
+    arguments.push(&out);
+    let child = begun(&arguments);
+    while !checkpoint.exists() {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let process = child.id().to_string();
+    let sent = Command::new("kill").args(["-INT", &process]).status();
+    assert!(sent.unwrap().success());
+    let ended = child.wait_with_output().unwrap();
+    assert_eq!(ended.status.code(), Some(130));
+    let message = String::from_utf8(ended.stderr).unwrap();
+    assert!(message.contains("--resume goes on"), "{message}");
+    assert!(!Path::new(&out).exists() && checkpoint.exists());
+}
+
+#[test]
+fn simulated_searches_are_the_same_on_any_number_of_threads() {
+    let home = tempfile::tempdir().unwrap();
+    let mut results = Vec::new();
+    for threads in ["1", "3"] {
+        let out = home.path().join(threads).display().to_string();
+        succeeded(&prone(&[
+            "optimize",
+            "--objective",
+            "torque",
+            "--source",
+            "dynamics",
+            "--duration",
+            "0.5",
+            "--gait-form",
+            "bspline:5",
+            "--ends",
+            "free",
+            "--seed",
+            "1",
+            "--budget",
+            "300",
+            "--confirm-durations",
+            "0.5",
+            "--threads",
+            threads,
+            "--out",
+            &out,
+        ]));
+        results.push(result(Path::new(&out)));
+    }
+    assert!(results[0] == results[1]);
+    let text = String::from_utf8(results[0]["result.json"].clone()).unwrap();
+    for key in ["\"cost\"", "\"torque\"", "\"violations\"", "\"evaluations\"", "\"seed\""] {
+        assert!(text.contains(key), "{key} is missing");
+    }
+    // What it found is a gait for every other command.
+    let gait = home.path().join("1/gait.toml").display().to_string();
+    succeeded(&prone(&["gait", "show", &gait]));
+    succeeded(&prone(&[
+        "cost",
+        &gait,
+        "--objective",
+        "peak",
+        "--source",
+        "dynamics",
+        "--duration",
+        "0.5",
+    ]));
+}

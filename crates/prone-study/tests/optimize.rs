@@ -1,0 +1,193 @@
+//! Prices by simulation, and what searches find, against published and recorded figures.
+//!
+//! The author's tables lie outside the repository: in the directory that `PRONE_REFERENCE_DIR`
+//! names, or in `../shared/reference` beside it. Where they are absent the tests that need them say
+//! so and pass; with `PRONE_REQUIRE_REFERENCE=1` they fail.
+
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+
+use prone::cost::published::PublishedRules;
+use prone::gait::{Gait, PhaseDuration};
+use prone::torque_map::{self, TorqueMap};
+use prone_files::shipped;
+use prone_sim::pull::{self, Start};
+use prone_sim::{LoadedRobot, Regime, RobotFiles, World};
+use prone_study::optimize::dynamic::{DynamicPricing, DynamicSetup};
+use prone_study::optimize::objective::Objective;
+use prone_study::optimize::pricer;
+use prone_study::optimize::pricing::{ChainRules, Clearance, Pricing, Share};
+use prone_study::optimize::published_problem::{self, PublishedProblem};
+use prone_study::optimize::search::{Search, SearchEnd, Solver};
+
+fn nao() -> LoadedRobot {
+    LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap()
+}
+
+fn gait(name: &str) -> Gait {
+    shipped::gait(name).unwrap().unwrap()
+}
+
+fn seconds(seconds: f64) -> PhaseDuration {
+    PhaseDuration::new(seconds).unwrap()
+}
+
+/// The set-up of a search by simulation: commands of at most 200° per pull, and no more of the
+/// weight on the body than with the published optimum.
+fn setup(world: &World, objective: Objective, duration: PhaseDuration) -> DynamicSetup {
+    DynamicSetup {
+        norm: objective.norm(world.robot()).unwrap(),
+        share: Share::Phase,
+        rules: ChainRules {
+            rate: 200_f64.to_radians(),
+            clearance: Clearance::Free,
+        },
+        duration,
+        body_share: pricer::body_share(world, &gait("optimal"), duration).unwrap(),
+    }
+}
+
+/// Torque part of a gait over the nominal one's, and whether it keeps the rules.
+fn ratio(world: &World, name: &str, objective: Objective, duration: f64) -> (f64, bool) {
+    let duration = seconds(duration);
+    let pricing =
+        DynamicPricing::new(world, &gait("nominal"), setup(world, objective, duration)).unwrap();
+    let nominal = pricing.quote(&gait("nominal")).torque;
+    let price = pricing.quote(&gait(name));
+    (price.torque / nominal, price.violations.total() == 0.0)
+}
+
+/// A prototype of the same set-up, written independently, has .839 at 3 s and .857 at 5 s
+/// (SIMULATION.md §8). Two engines' releases and two programs may differ by one percent.
+#[test]
+fn reference_the_published_optimum_over_nominal() {
+    let loaded = nao();
+    let world = World::new(&loaded, Regime::TORQUE_STUDY).unwrap();
+    for (duration, prototype) in [(3.0, 0.839), (5.0, 0.857)] {
+        let (ratio, kept) = ratio(&world, "optimal", Objective::TORQUE, duration);
+        assert!((ratio - prototype).abs() < 0.01, "{ratio} at {duration} s");
+        // Its shoulder passes 200° per pull.
+        assert!(!kept);
+    }
+}
+
+/// A search settles the robot once for all gaits that begin alike: to the same bits as each alone.
+#[test]
+fn a_pull_from_a_settled_clone_is_the_same_pull() {
+    let loaded = nao();
+    let world = World::new(&loaded, Regime::TORQUE_STUDY).unwrap();
+    let (nominal, duration) = (gait("nominal"), seconds(0.5));
+    let alone = pull::run(&world, &nominal, duration, Start::FirstPose, 0).unwrap();
+    let pricing =
+        DynamicPricing::new(&world, &nominal, setup(&world, Objective::TORQUE, duration)).unwrap();
+    for _ in 0..2 {
+        assert_eq!(pricing.trial(&nominal).unwrap().pull, alone);
+    }
+    // One that begins elsewhere is settled there.
+    let mut lower = nominal.clone();
+    lower.hip = prone::gait::Curve::constant(0.3).unwrap();
+    let alone = pull::run(&world, &lower, duration, Start::FirstPose, 0).unwrap();
+    assert_eq!(pricing.trial(&lower).unwrap().pull, alone);
+}
+
+#[test]
+fn a_gait_that_breaks_the_rules_ranks_behind_one_that_does_not() {
+    let loaded = nao();
+    let world = World::new(&loaded, Regime::TORQUE_STUDY).unwrap();
+    let duration = seconds(0.5);
+    let mut setup = setup(&world, Objective::TORQUE, duration);
+    setup.body_share = 0.999;
+    let pricing = DynamicPricing::new(&world, &gait("nominal"), setup).unwrap();
+    let kept = pricing.price(&gait("nominal"));
+    assert!(kept.violations.total() == 0.0);
+    let mut fast = gait("nominal");
+    fast.knee = prone::gait::Curve::through(vec![(0.0, 0.288), (0.5, 1.4), (1.0, 0.288)]).unwrap();
+    let fast = pricing.price(&fast);
+    assert!(fast.torque.is_nan() && fast.violations.total() > 1.0);
+    assert!(kept.order(&fast).is_lt());
+}
+
+/// Gaits that ship, each with the ratios that its file states.
+#[test]
+fn regression_shipped_gaits_cost_what_their_files_say() {
+    let loaded = nao();
+    let world = World::new(&loaded, Regime::TORQUE_STUDY).unwrap();
+    let weighted = Objective::Torque {
+        weights: prone::cost::published::WEIGHTS,
+    };
+    for (name, objective, duration, most) in [
+        ("least-torque", Objective::TORQUE, 3.0, 0.75),
+        ("least-torque", Objective::TORQUE, 5.0, 0.77),
+        ("least-torque-spline", Objective::TORQUE, 3.0, 0.71),
+        ("least-weighted-torque", weighted, 3.0, 0.75),
+    ] {
+        let (ratio, kept) = ratio(&world, name, objective, duration);
+        println!("{name} at {duration} s: {ratio:.4}");
+        assert!(ratio <= most, "{name} at {duration} s: {ratio}");
+        // Found at 3 s; the share of the weight on the body is held against the limit there.
+        assert!(kept || duration != 3.0, "{name} breaks a rule");
+    }
+}
+
+fn recorded(file: &str) -> Option<TorqueMap> {
+    let repository = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let folder = std::env::var_os("PRONE_REFERENCE_DIR")
+        .map_or_else(|| repository.join("../shared/reference"), PathBuf::from);
+    let path = folder.join(file);
+    match std::fs::read_to_string(&path) {
+        Ok(text) => Some(torque_map::parse(&text).unwrap()),
+        Err(error) => {
+            let required = std::env::var_os("PRONE_REQUIRE_REFERENCE").is_some_and(|v| v == "1");
+            assert!(!required, "{}: {error}", path.display());
+            eprintln!("skipped: {}: {error}", path.display());
+            None
+        }
+    }
+}
+
+/// Best costs known before (THEORY.md §6): 32001.551 on the table of 5°, 14001.552 on that of 2.5°,
+/// and 0.7003 with the hip rule at 13.7 mm and a tolerance of 1e-4 rad. Three seeds of the twenty
+/// that were measured (decision 7), with the same 100,000 evaluations.
+#[test]
+fn reference_searches_of_the_published_problem_reach_the_best_known() {
+    let lowered = PublishedRules {
+        hip_threshold: 0.0137,
+        limit_tolerance: 1e-4,
+    };
+    let loaded = nao();
+    for (file, rules, known) in [
+        ("torque-table-5deg.csv", PublishedRules::PUBLISHED, 32001.56),
+        ("torque-table-2.5deg.csv", PublishedRules::PUBLISHED, 14001.56),
+        ("torque-table-2.5deg.csv", lowered, 0.7003 * 1.01),
+    ] {
+        let Some(map) = recorded(file) else {
+            return;
+        };
+        let problem = PublishedProblem::new(loaded.robot(), &map, rules).unwrap();
+        let objective = published_problem::objective(loaded.robot(), &map, rules).unwrap();
+        let mut search = Search::new(Solver::DifferentialEvolution, 1, 3, 100_000);
+        let end = search.proceed(&problem, |_| ControlFlow::Continue(()));
+        assert_eq!(end, SearchEnd::Finished);
+        for run in search.runs() {
+            let best = run.best().unwrap();
+            let coefficients = published_problem::coefficients(&best.point).unwrap();
+            let cost = objective.price(&coefficients).cost();
+            println!("{file}, seed {}: {cost}", run.seed);
+            assert!(cost <= known, "{file}, seed {}: {cost}", run.seed);
+            let outside = coefficients.outside(published_problem::BOUND);
+            assert!(outside == 0.0 && coefficients.end_error() < 1e-9);
+        }
+    }
+}
+
+/// A published gait keeps its price through a gait file's curves: c0 does not count, cubics only.
+#[test]
+fn published_coefficients_survive_the_way_through_a_gait() {
+    let point = [0.1, -0.2, 0.3, -0.4, 0.5, -0.6];
+    let coefficients = published_problem::coefficients(&point).unwrap();
+    let gait = published_problem::gait("found", &coefficients).unwrap();
+    assert_eq!(published_problem::coefficients_of(&gait), Some(coefficients));
+    let mut spline = gait;
+    spline.knee = prone::gait::Curve::b_spline(3, vec![0.1; 5]).unwrap();
+    assert_eq!(published_problem::coefficients_of(&spline), None);
+}
