@@ -1,10 +1,14 @@
 //! What may be typed.
 
+mod torque_map;
+
 use std::path::PathBuf;
 
 use clap::{Parser, Subcommand};
 
 use prone::gait::PhaseDuration;
+
+pub(crate) use torque_map::{BuildArgs, CompareArgs, PlotArgs, SourceArg, TorqueMapCommand};
 
 /// Makes humanoid robots crawl where they cannot walk.
 #[derive(Debug, Parser)]
@@ -34,6 +38,9 @@ pub(crate) enum Command {
     /// Look at robots
     #[command(subcommand)]
     Robot(RobotCommand),
+    /// Build, compare and draw maps of static joint torques
+    #[command(subcommand)]
+    TorqueMap(TorqueMapCommand),
     /// Print a completion script for a shell
     #[command(
         after_help = "Example:\n  prone completions bash > ~/.local/share/bash-completion/completions/prone"
