@@ -9,6 +9,7 @@ mod gauge;
 mod grid;
 mod job;
 mod journal;
+pub mod plot;
 
 pub use grid::{MOST_ROWS, NodeGrid, NodeGridError};
 pub use job::{Job, JobError, Source};

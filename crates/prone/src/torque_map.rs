@@ -21,7 +21,7 @@ mod csv;
 mod grid;
 mod recorded;
 
-pub use csv::{COLUMNS, ParseError, parse, parse_recorded, write};
+pub use csv::{COLUMNS, ParseError, comments, parse, parse_recorded, write};
 pub use grid::{Axis, AxisName, Cell, Grid, GridError};
 pub use recorded::{CARRYING_SHARE, ContactForces, RecordedMap};
 

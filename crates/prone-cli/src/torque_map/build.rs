@@ -47,7 +47,7 @@ pub(super) fn run(args: &BuildArgs) -> Result<(), Failure> {
 
     let mut err = std::io::stderr();
     // Where nobody listens, nothing is lost.
-    let _ = writeln!(err, "done in {wall_s:.1} s on {threads} threads");
+    let _ = writeln!(err, "done in {wall_s:.1} s, threads: {threads}");
     let mut out = std::io::stdout().lock();
     if args.json {
         let text = serde_json::to_string_pretty(&summary).map_err(Failure::work)?;

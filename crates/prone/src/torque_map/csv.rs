@@ -25,7 +25,7 @@
 mod read;
 mod write;
 
-pub use read::{ParseError, parse, parse_recorded};
+pub use read::{ParseError, comments, parse, parse_recorded};
 pub use write::write;
 
 /// Names of the columns, in order.

@@ -302,9 +302,10 @@ proptest! {
         }).collect();
         let map = TorqueMap::new(reach(), rows).unwrap();
         let written = RecordedMap::new(map, contacts).unwrap();
-        let comments = ["theta1, 2, 3".to_owned(), String::new()];
-        let text = write(&comments, &robot, &mapping, &written);
+        let comments_written = ["theta1, 2, 3".to_owned(), String::new()];
+        let text = write(&comments_written, &robot, &mapping, &written);
         prop_assert_eq!(text.lines().count(), 62);
+        prop_assert!(comments(&text).eq(comments_written.iter().map(String::as_str)));
         let read = parse_recorded(&text).unwrap();
 
         // Ten decimals are written.

@@ -112,6 +112,12 @@ pub fn parse_recorded(text: &str) -> Result<RecordedMap, ParseError> {
     Ok(RecordedMap::new(map, contacts)?)
 }
 
+/// The comments of a table, without what marks them.
+pub fn comments(text: &str) -> impl Iterator<Item = &str> {
+    let marked = text.lines().filter_map(|line| line.strip_prefix(COMMENT));
+    marked.map(str::trim)
+}
+
 impl Record {
     fn read(line: usize, content: &str, expected: Option<usize>) -> Result<Self, ParseError> {
         let columns = content.split(',').count();
