@@ -2,12 +2,15 @@
 
 pub(crate) mod optimize;
 pub(crate) mod pricing;
+mod torque_map;
 
 use std::path::PathBuf;
 
 use clap::{Parser, Subcommand};
 
 use prone::gait::PhaseDuration;
+
+pub(crate) use torque_map::{BuildArgs, CompareArgs, PlotArgs, SourceArg, TorqueMapCommand};
 
 /// Makes humanoid robots crawl where they cannot walk.
 #[derive(Debug, Parser)]
@@ -45,6 +48,9 @@ pub(crate) enum Command {
     /// Look at robots
     #[command(subcommand)]
     Robot(RobotCommand),
+    /// Build, compare and draw maps of static joint torques
+    #[command(subcommand)]
+    TorqueMap(TorqueMapCommand),
     /// Print a completion script for a shell
     #[command(
         after_help = "Example:\n  prone completions bash > ~/.local/share/bash-completion/completions/prone"

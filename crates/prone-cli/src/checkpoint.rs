@@ -113,13 +113,13 @@ fn difference(name: &str, then: &Value, now: &Value) -> Option<(String, Value, V
         return None;
     }
     if let (Value::Object(old), Value::Object(new)) = (then, now) {
-        let keys = old.keys().chain(new.keys());
+        let mut keys = old.keys().chain(new.keys());
         let inner = |key: &String| {
             let of =
                 |map: &serde_json::Map<String, Value>| map.get(key).cloned().unwrap_or_default();
             difference(key, &of(old), &of(new))
         };
-        if let Some(found) = keys.filter_map(inner).next() {
+        if let Some(found) = keys.find_map(inner) {
             return Some(found);
         }
     }

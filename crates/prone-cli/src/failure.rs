@@ -18,8 +18,8 @@ pub(crate) enum Failure {
     Work(anyhow::Error),
     /// The user stopped it: exit code 130.
     Stopped,
-    /// The user stopped it, and it can go on from here: exit code 130.
-    Suspended(String),
+    /// The user stopped it, and part of the work is kept, as the message says: exit code 130.
+    Paused(String),
     /// Whoever reads our output has gone, as `head` does: no reason to complain.
     OutputClosed,
 }
@@ -41,7 +41,7 @@ impl Failure {
             Self::Input(error) => (format!("error: {error}"), 2),
             Self::Work(error) => (format!("error: {error}"), 1),
             Self::Stopped => ("stopped; nothing was written".to_owned(), STOPPED),
-            Self::Suspended(message) => (message, STOPPED),
+            Self::Paused(kept) => (format!("stopped; {kept}"), STOPPED),
             Self::OutputClosed => return ExitCode::SUCCESS,
         };
         // Where nobody hears, the exit code still speaks.

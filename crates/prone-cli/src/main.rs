@@ -15,6 +15,7 @@ mod progress;
 mod reproduce;
 mod robot;
 mod table_file;
+mod torque_map;
 
 use std::io::Write as _;
 use std::process::ExitCode;
@@ -32,6 +33,7 @@ fn main() -> ExitCode {
         Command::Cost(args) => cost::run(&args),
         Command::Gait(GaitCommand::Show(args)) => gait::show(&args),
         Command::Robot(RobotCommand::Check(args)) => robot::check(&args),
+        Command::TorqueMap(command) => torque_map::run(&command),
         Command::Completions { shell } => completions(shell),
     };
     match done {

@@ -212,8 +212,8 @@ fn hunt_down(
 }
 
 fn suspended(checkpoint: &Checkpoint) -> Failure {
-    Failure::Suspended(format!(
-        "stopped; the search is kept in {}, and --resume goes on from there",
+    Failure::Paused(format!(
+        "the search is kept in {}, and --resume goes on from there",
         checkpoint.path().display()
     ))
 }
@@ -315,31 +315,35 @@ fn artefacts(
 
 /// How the gait was found and what it does, for whoever reads its file.
 fn header(outcome: &Outcome, pricing: &Pricing) -> String {
-    let mut text = format!(
-        "Found by prone {} ({}), seed {}, {} evaluations in {} runs.\n",
+    let mut lines = vec![format!(
+        "Found by prone {} ({}), seed {}, {} evaluations in {} runs, on robot {}.",
         env!("CARGO_PKG_VERSION"),
         env!("PRONE_COMMIT"),
         outcome.seed,
         outcome.evaluations,
-        outcome.runs.len()
-    );
+        outcome.runs.len(),
+        pricing.robot.robot().name
+    )];
     if let Some(cost) = outcome.price.cost {
-        text.push_str(&format!(
-            "Cost {cost:.4} ({}), violations {:.4}.\n",
+        lines.push(format!(
+            "Cost {cost:.4} ({}), violations {:.4}.",
             outcome.unit, outcome.price.violations
         ));
     }
-    for verdict in &outcome.verdicts {
-        text.push_str(&format!("{}\n", sentence(verdict)));
-    }
-    for refused in &outcome.refused {
-        text.push_str(&format!(
-            "In regime {} {} cannot be simulated: {}.\n",
-            refused.regime, refused.gait, refused.reason
-        ));
-    }
-    text.push_str(&format!("Robot {}.", pricing.robot.robot().name));
-    text
+    lines.push(
+        "Simulated from its own first pose at several durations, cost over another gait's:".into(),
+    );
+    lines.extend(outcome.verdicts.iter().map(sentence));
+    let refused = outcome.refused.iter().map(|refused| {
+        let confirm::Refusal {
+            regime,
+            gait,
+            reason,
+        } = refused;
+        format!("{regime}: {gait} cannot be simulated: {reason}.")
+    });
+    lines.extend(refused);
+    lines.join("\n")
 }
 
 fn sentence(verdict: &confirm::Verdict) -> String {

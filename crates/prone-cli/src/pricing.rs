@@ -249,10 +249,9 @@ fn source(given: &str) -> Result<LoadedSource, Failure> {
     })?;
     let map =
         torque_map::parse(&text).map_err(|error| Failure::Input(anyhow!("{given}: {error}")))?;
-    let hash = Sha256::digest(&text);
     Ok(LoadedSource::Map {
         map: Box::new(map),
-        hash: hash.iter().map(|byte| format!("{byte:02x}")).collect(),
+        hash: format!("{:x}", Sha256::digest(&text)),
     })
 }
 

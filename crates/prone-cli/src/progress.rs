@@ -1,8 +1,12 @@
 //! A progress bar on a terminal, silence elsewhere.
 
+use std::io::Write as _;
+use std::path::PathBuf;
+
 use indicatif::{ProgressBar, ProgressStyle};
 
 use prone_study::optimize::search::Search;
+use prone_study::torque_map::build;
 use prone_study::torque_study::Observer;
 
 use crate::Failure;
@@ -16,13 +20,7 @@ pub(crate) struct Progress {
 impl Progress {
     /// Shows progress in `phases` steps.
     pub(crate) fn new(phases: usize) -> Result<Self, Failure> {
-        // indicatif draws on standard error, and only if that is a terminal.
-        let bar = ProgressBar::new(phases as u64);
-        let style = ProgressStyle::with_template("{msg:<12} {bar:30} {pos}/{len}  {elapsed}")
-            .map_err(Failure::work)?;
-        bar.set_style(style);
-        bar.set_message("simulating");
-        bar.tick();
+        let bar = bar(phases, "simulating")?;
         Ok(Self { bar })
     }
 
@@ -78,4 +76,59 @@ impl SearchProgress {
     pub(crate) fn finish(&self) {
         self.bar.finish_and_clear();
     }
+}
+
+/// Progress of a torque map.
+pub(crate) struct RowProgress {
+    bar: ProgressBar,
+    journal: PathBuf,
+}
+
+impl RowProgress {
+    /// Shows progress in rows; `journal` is where earlier ones would come from.
+    pub(crate) fn new(rows: usize, journal: PathBuf) -> Result<Self, Failure> {
+        let bar = bar(rows, "measuring")?;
+        Ok(Self { bar, journal })
+    }
+
+    /// All work is done.
+    pub(crate) fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+impl build::Observer for RowProgress {
+    fn taken_over(&self, rows: usize) {
+        if rows > 0 {
+            let all = self.bar.length().unwrap_or(0);
+            let journal = self.journal.display();
+            // Where nobody listens, the work goes on. The bar steps aside meanwhile.
+            self.bar.suspend(|| {
+                let _ = writeln!(
+                    std::io::stderr(),
+                    "{rows} of {all} rows taken over from {journal}"
+                );
+            });
+        }
+        self.bar.set_position(rows as u64);
+    }
+
+    fn row_done(&self) {
+        self.bar.inc(1);
+    }
+
+    fn stop(&self) -> bool {
+        interrupt::requested()
+    }
+}
+
+fn bar(steps: usize, message: &'static str) -> Result<ProgressBar, Failure> {
+    // indicatif draws on standard error, and only if that is a terminal.
+    let bar = ProgressBar::new(steps as u64);
+    let style = ProgressStyle::with_template("{msg:<12} {bar:30} {pos}/{len}  {elapsed}")
+        .map_err(Failure::work)?;
+    bar.set_style(style);
+    bar.set_message(message);
+    bar.tick();
+    Ok(bar)
 }

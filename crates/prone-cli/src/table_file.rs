@@ -26,6 +26,24 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
     }
 }
 
+/// Whether a file that takes long to make can be put at `path`, whole: only a regular file, which may
+/// be written, or nothing may stand there.
+pub(crate) fn check_place(path: &Path) -> io::Result<()> {
+    match fs::metadata(path) {
+        Ok(found) if found.is_file() => OpenOptions::new().write(true).open(path).map(drop),
+        Ok(_) => Err(io::Error::other("it is not a regular file")),
+        Err(error)
+            if error.kind() == io::ErrorKind::NotFound && fs::symlink_metadata(path).is_ok() =>
+        {
+            Err(io::Error::other(
+                "it is a link to something that does not exist",
+            ))
+        }
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+        Err(error) => Err(error),
+    }
+}
+
 fn replace(path: &Path, bytes: &[u8], mode: u32) -> io::Result<()> {
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
@@ -75,6 +93,18 @@ mod tests {
         assert_eq!(fs::read(at("later")).unwrap(), b"three");
         assert!(fs::symlink_metadata(at("link")).unwrap().is_symlink());
         assert_eq!(io::read_to_string(held).unwrap(), "one", "not overwritten");
+        for (name, place) in [
+            ("link", Ok(())),
+            ("newer", Ok(())),
+            ("dangling", Ok(())),
+            (".", Err(())),
+        ] {
+            assert_eq!(check_place(&at(name)).map_err(drop), place, "{name}");
+        }
+        symlink("nowhere", at("lost")).unwrap();
+        assert!(check_place(&at("lost")).is_err());
+        fs::remove_file(at("lost")).unwrap();
+        assert!(check_place(Path::new("/dev/null")).is_err());
         write(Path::new("/dev/null"), b"four").unwrap();
         assert!(!fs::metadata("/dev/null").unwrap().is_file());
         assert!(write(Path::new("/dev/full"), b"five").is_err());

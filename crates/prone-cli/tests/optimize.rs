@@ -70,7 +70,10 @@ fn a_killed_search_resumes_to_the_bytes_of_an_uninterrupted_one() {
         let mut arguments = SEARCH.to_vec();
         arguments.push(out);
         arguments.extend(more);
-        arguments.iter().map(|a| (*a).to_owned()).collect::<Vec<_>>()
+        arguments
+            .iter()
+            .map(|a| (*a).to_owned())
+            .collect::<Vec<_>>()
     };
     let run = |out: &str, more: &[&str]| {
         let arguments = search(out, more);
@@ -168,7 +171,13 @@ fn simulated_searches_are_the_same_on_any_number_of_threads() {
     }
     assert!(results[0] == results[1]);
     let text = String::from_utf8(results[0]["result.json"].clone()).unwrap();
-    for key in ["\"cost\"", "\"torque\"", "\"violations\"", "\"evaluations\"", "\"seed\""] {
+    for key in [
+        "\"cost\"",
+        "\"torque\"",
+        "\"violations\"",
+        "\"evaluations\"",
+        "\"seed\"",
+    ] {
         assert!(text.contains(key), "{key} is missing");
     }
     // What it found is a gait for every other command.

@@ -81,14 +81,14 @@ pub fn write(gait: &Gait, header: &str) -> String {
         ("arm", gait.arm.name()),
         ("limits", limits),
     ] {
-        text.push_str(&format!("{key} = {}\n", quoted(value)));
+        text.push_str(&[key, " = ", &quoted(value), "\n"].concat());
     }
     for (table, curve) in [
         ("knee", &gait.knee),
         ("hip", &gait.hip),
         ("upper_arm", &gait.upper_arm),
     ] {
-        text.push_str(&format!("\n[{table}]\n{}\n", curve_table::write(curve)));
+        text.push_str(&["\n[", table, "]\n", &curve_table::write(curve), "\n"].concat());
     }
     text
 }

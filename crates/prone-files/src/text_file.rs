@@ -14,20 +14,29 @@ pub const LARGEST_BYTES: u64 = 16 << 20;
 /// # Errors
 /// [`io::Error`], whose message follows after `cannot read <file>: `.
 pub fn read(path: &Path) -> io::Result<String> {
+    read_at_most(path, LARGEST_BYTES)
+}
+
+/// The same with another limit, for tables.
+///
+/// # Errors
+/// [`io::Error`], whose message follows after `cannot read <file>: `.
+pub fn read_at_most(path: &Path, largest_bytes: u64) -> io::Result<String> {
     // Looked at before it is opened: opening a pipe waits for its writer.
     if !fs::metadata(path)?.is_file() {
         return Err(refused("it is not a regular file"));
     }
     let mut text = String::new();
     File::open(path)?
-        .take(LARGEST_BYTES + 1)
+        .take(largest_bytes + 1)
         .read_to_string(&mut text)
         .map_err(|error| match error.kind() {
             io::ErrorKind::InvalidData => refused("it is not UTF-8 text"),
             _ => error,
         })?;
-    if text.len() as u64 > LARGEST_BYTES {
-        return Err(refused("it is larger than 16 MiB"));
+    if text.len() as u64 > largest_bytes {
+        let most = largest_bytes >> 20;
+        return Err(refused(&format!("it is larger than {most} MiB")));
     }
     Ok(text)
 }

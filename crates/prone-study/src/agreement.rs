@@ -90,12 +90,12 @@ fn bin_of(percent: f64) -> usize {
     ((percent / 10.0) as usize).min(BINS - 1)
 }
 
-fn rms(pairs: &[(f64, f64)]) -> f64 {
+pub(crate) fn rms(pairs: &[(f64, f64)]) -> f64 {
     let squares: f64 = pairs.iter().map(|(a, b)| (a - b) * (a - b)).sum();
     (squares / pairs.len() as f64).sqrt()
 }
 
-fn correlation(pairs: &[(f64, f64)]) -> Option<f64> {
+pub(crate) fn correlation(pairs: &[(f64, f64)]) -> Option<f64> {
     let n = pairs.len() as f64;
     let mean_a = pairs.iter().map(|(a, _)| a).sum::<f64>() / n;
     let mean_b = pairs.iter().map(|(_, b)| b).sum::<f64>() / n;

@@ -6,7 +6,8 @@
 //! out: a panel, a curve or a whole figure.
 //!
 //! `style` is the look, `svg` and `font` draw, `axis`, `panel` and `sheet` lay out, `raster` makes
-//! pixels; `parameters`, `chain`, `torque`, `comparison` and `cost` are the figures.
+//! pixels; `parameters`, `chain`, `torque`, `comparison` and `cost` are the figures. `torque_map` draws
+//! what the thesis does not: slices of a map, with the cells and colours of `heat`.
 
 mod axis;
 mod chain;
@@ -14,6 +15,7 @@ mod check;
 mod comparison;
 mod cost;
 mod font;
+mod heat;
 mod panel;
 mod parameters;
 pub(crate) mod raster;
@@ -25,18 +27,20 @@ mod svg;
 #[cfg(test)]
 mod tests;
 mod torque;
+mod torque_map;
 
 pub use search::{Scores, figures as search_figures};
 
 use crate::record::{ChainRecord, CostRecord, PullRecord};
 use sheet::Sheet;
+pub use torque_map::figures as torque_map_figures;
 
 /// One finished drawing.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Figure {
     /// Name of its files, without extension.
     pub stem: String,
-    /// Number of its original in the thesis.
+    /// Number of its original in the thesis; empty where it has none.
     pub number: &'static str,
     /// A few words.
     pub title: String,

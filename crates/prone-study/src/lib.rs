@@ -18,4 +18,5 @@ pub mod robot_sheet;
 pub mod run_info;
 pub mod summary;
 mod tables;
+pub mod torque_map;
 pub mod torque_study;

@@ -48,7 +48,7 @@ pub enum ReproduceError {
 }
 
 /// Pixels per unit of an SVG figure in its PNG.
-const PNG_SCALE: f32 = 2.0;
+pub(crate) const PNG_SCALE: f32 = 2.0;
 
 /// Runs the study on the current rayon pool and makes every file of the result.
 ///
@@ -124,7 +124,7 @@ fn insert_figure(artefacts: &mut Artefacts, figure: Figure, png: Vec<u8>) {
     );
 }
 
-fn json(value: &impl Serialize) -> Result<Vec<u8>, serde_json::Error> {
+pub(crate) fn json(value: &impl Serialize) -> Result<Vec<u8>, serde_json::Error> {
     let mut text = serde_json::to_vec_pretty(value)?;
     text.push(b'\n');
     Ok(text)

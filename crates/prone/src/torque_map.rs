@@ -19,9 +19,11 @@
 
 mod csv;
 mod grid;
+mod recorded;
 
-pub use csv::{ParseError, parse};
+pub use csv::{COLUMNS, ParseError, comments, parse, parse_recorded, write};
 pub use grid::{Axis, AxisName, Cell, Grid, GridError};
+pub use recorded::{CARRYING_SHARE, ContactForces, RecordedMap};
 
 use crate::chain::{ClosureError, GaitParameters};
 
@@ -107,7 +109,7 @@ pub enum TorqueGap {
 }
 
 /// Why a row of a map is not to be used.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, thiserror::Error)]
 pub enum Mask {
     /// No torques were recorded.
     #[error("no torques were recorded")]
@@ -135,6 +137,21 @@ pub enum Row {
         /// What the record says nevertheless; the published objective used it.
         recorded: Option<JointTorques>,
     },
+}
+
+impl Mask {
+    /// All masks, in the order of summaries.
+    pub const ALL: [Self; 4] = [Self::Missing, Self::Mirrored, Self::Open, Self::Failed];
+
+    /// One word for tables and records.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Missing => "missing",
+            Self::Mirrored => "mirrored",
+            Self::Open => "open",
+            Self::Failed => "failed",
+        }
+    }
 }
 
 impl Row {

@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::panel::{Aspect, Curve, Note, Panel, Rule};
-use super::sheet::{ColourBar, Sheet};
+use super::sheet::{Bar, ColourBar, Sheet};
 use super::style::{Fill, INK, Marker, Shape, Stroke};
 use super::svg::{Anchor, Point};
 use super::{Figure, Wording, sentence};
@@ -44,7 +44,7 @@ pub(super) fn figure(record: &ChainRecord, number: &'static str) -> Option<Figur
     let sheet = Sheet {
         panels: vec![panel(&postures, highest, &bar)],
         key: Vec::new(),
-        bar: Some(bar),
+        bar: Some(Bar::Steps(bar)),
         columns: 1,
         frame_height: 250.0,
     };

@@ -1,6 +1,8 @@
 //! Refuses records with numbers that no axis can show, before anything is drawn.
 
 use super::FigureError;
+use prone::torque_map::{Row, TorqueMap};
+
 use crate::record::{ChainRecord, CostRecord, JOINTS, PullRecord};
 
 /// Beyond this a difference between neighbouring values is lost; no quantity here comes near it.
@@ -57,6 +59,20 @@ pub(super) fn costs(records: &[CostRecord]) -> Result<(), FigureError> {
             drawable(*published, || {
                 format!("published cost of {gait}, {duration_s} s")
             })?;
+        }
+    }
+    Ok(())
+}
+
+/// Every torque of a map.
+pub(super) fn map(map: &TorqueMap) -> Result<(), FigureError> {
+    for (index, row) in map.rows().iter().enumerate() {
+        if let Row::Torques(torques) = row {
+            for (torque, joint) in torques.to_array().into_iter().zip(JOINTS) {
+                drawable(torque, || {
+                    format!("{joint} torque of the map's row {index}")
+                })?;
+            }
         }
     }
     Ok(())

@@ -23,11 +23,7 @@ pub(super) fn figure(pulls: &[PullRecord], reference: &str, other: &str) -> Opti
     let key = [reference, other]
         .into_iter()
         .enumerate()
-        .map(|(index, gait)| KeyEntry {
-            label: format!("{gait} gait"),
-            stroke: gait_stroke(index),
-            marker: None,
-        });
+        .map(|(index, gait)| KeyEntry::line(format!("{gait} gait"), gait_stroke(index), None));
     let sheet = Sheet {
         key: key.collect(),
         bar: None,

@@ -139,11 +139,7 @@ fn series(costs: &[CostRecord], curve: impl Fn(&str, Source) -> (String, Vec<Poi
             });
             let label = format!("{name}, {}", source.label());
             series.push((
-                KeyEntry {
-                    label,
-                    stroke,
-                    marker,
-                },
+                KeyEntry::line(label, stroke, marker),
                 Curve {
                     points,
                     stroke,

@@ -1,7 +1,9 @@
-//! One plot: a frame with two axes, curves inside, notes beside their points.
+//! One plot: a frame with two axes, curves or the cells of a heat map inside, notes beside their
+//! points.
 
 use super::axis::{Axis, Ticks};
 use super::font::{self, Weight};
+use super::heat::Cells;
 use super::style::{GRID, INK, MINOR_GRID, Marker, REFERENCE, SMALL_SIZE, Stroke, TEXT_SIZE};
 use super::svg::{Anchor, Canvas, Point, Rect, TextStyle};
 
@@ -27,6 +29,8 @@ pub(super) struct Panel {
     pub(super) x: Axis,
     pub(super) y: Axis,
     pub(super) aspect: Aspect,
+    /// Over the whole frame, below everything else.
+    pub(super) cells: Option<Cells>,
     /// Below the curves.
     pub(super) rules: Vec<Rule>,
     /// Later ones above earlier ones.
@@ -74,6 +78,7 @@ impl Panel {
             x,
             y,
             aspect: Aspect::Free,
+            cells: None,
             rules: zero.into_iter().collect(),
             curves,
             notes: Vec::new(),
@@ -98,6 +103,9 @@ impl Panel {
             frame,
         };
         view.draw_grid(canvas);
+        if let Some(cells) = &self.cells {
+            cells.draw(canvas, frame);
+        }
         canvas.clipped(frame, |canvas| {
             self.rules
                 .iter()

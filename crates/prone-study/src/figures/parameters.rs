@@ -21,10 +21,8 @@ pub(super) fn figure(chains: &[ChainRecord]) -> Option<Figure> {
     if chains.is_empty() {
         return None;
     }
-    let key = chains.iter().enumerate().map(|(index, chain)| KeyEntry {
-        label: format!("{} gait", chain.gait),
-        stroke: gait_stroke(index),
-        marker: None,
+    let key = chains.iter().enumerate().map(|(index, chain)| {
+        KeyEntry::line(format!("{} gait", chain.gait), gait_stroke(index), None)
     });
     let panels = (0..PARAMETERS.len()).map(|parameter| panel(&chains, parameter));
     let sheet = Sheet {

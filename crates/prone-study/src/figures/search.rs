@@ -85,11 +85,7 @@ fn generations(search: &Search, objective: &Objective, scores: Scores) -> Option
     let key = [("best of the run so far", 0), ("mean of the generation", 1)];
     let sheet = Sheet {
         key: key
-            .map(|(label, index)| KeyEntry {
-                label: label.to_owned(),
-                stroke: stroke(index),
-                marker: None,
-            })
+            .map(|(label, index)| KeyEntry::line(label.to_owned(), stroke(index), None))
             .to_vec(),
         bar: None,
         columns: 2,
@@ -203,10 +199,9 @@ fn ratios(confirmation: &Confirmation, objective: &Objective) -> Option<Figure> 
             .push(Rule::Level(1.0, Stroke::solid(REFERENCE, 1.0)));
         panel
     });
-    let key = others.iter().enumerate().map(|(index, gait)| KeyEntry {
-        label: (*gait).to_owned(),
-        stroke: gait_stroke(index + 1),
-        marker: Some(marker(index + 1)),
+    let key = others.iter().enumerate().map(|(index, gait)| {
+        let (stroke, marker) = (gait_stroke(index + 1), marker(index + 1));
+        KeyEntry::line((*gait).to_owned(), stroke, Some(marker))
     });
     let sheet = Sheet {
         key: key.collect(),

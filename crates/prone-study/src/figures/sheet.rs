@@ -3,6 +3,7 @@
 //! The key stands above the panels and the bar beside them, so that neither covers a curve.
 
 use super::font::{self, Weight};
+use super::heat::{self, HeatScale};
 use super::panel::Panel;
 use super::style::{
     Colour, INK, Marker, SHEET_WIDTH, SMALL_SIZE, Stroke, TEXT_SIZE, TITLE_SIZE, step_colour,
@@ -30,7 +31,7 @@ const BAR_SPACE: f64 = 84.0;
 #[derive(Debug, Clone)]
 pub(super) struct Sheet {
     pub(super) key: Vec<KeyEntry>,
-    pub(super) bar: Option<ColourBar>,
+    pub(super) bar: Option<Bar>,
     pub(super) columns: usize,
     /// Height of each panel's frame.
     pub(super) frame_height: f64,
@@ -38,12 +39,32 @@ pub(super) struct Sheet {
     pub(super) panels: Vec<Panel>,
 }
 
-/// One line style and its meaning.
+/// One way of drawing and its meaning.
 #[derive(Debug, Clone)]
 pub(super) struct KeyEntry {
     pub(super) label: String,
-    pub(super) stroke: Stroke,
-    pub(super) marker: Option<Marker>,
+    pub(super) sample: Sample,
+}
+
+/// What stands beside a label of the key.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Sample {
+    /// A line style.
+    Line {
+        stroke: Stroke,
+        marker: Option<Marker>,
+    },
+    /// The cells of a heat map that have no value.
+    Hatched,
+}
+
+/// What the colours mean.
+#[derive(Debug, Clone)]
+pub(super) enum Bar {
+    /// Of curves.
+    Steps(ColourBar),
+    /// Of the cells of a heat map.
+    Scale(HeatScale),
 }
 
 /// Colours of the steps of a quantity.
@@ -73,7 +94,11 @@ impl Sheet {
         }
         self.draw_panels(&mut canvas, top);
         if let Some(bar) = &self.bar {
-            bar.draw(&mut canvas, top + ABOVE, height - MARGIN / 2.0 - BELOW);
+            let (top, bottom) = (top + ABOVE, height - MARGIN / 2.0 - BELOW);
+            match bar {
+                Bar::Steps(bar) => bar.draw(&mut canvas, top, bottom),
+                Bar::Scale(scale) => scale.draw(&mut canvas, bar_area(top, bottom)),
+            }
         }
         canvas.finish(title, description)
     }
@@ -121,15 +146,35 @@ impl Sheet {
 }
 
 impl KeyEntry {
+    /// A line style and its meaning.
+    pub(super) fn line(label: String, stroke: Stroke, marker: Option<Marker>) -> Self {
+        let sample = Sample::Line { stroke, marker };
+        Self { label, sample }
+    }
+
     /// Room for sample, label and a gap; some to spare where another font is wider.
     fn width(&self) -> f64 {
         SAMPLE + 8.0 + font::width(&self.label, TEXT_SIZE, Weight::Regular) * 1.05 + 20.0
     }
 
     fn draw(&self, canvas: &mut Canvas, (left, middle): Point) {
-        canvas.line((left, middle), (left + SAMPLE, middle), self.stroke);
-        if let Some(marker) = self.marker {
-            canvas.marker((left + SAMPLE / 2.0, middle), marker, self.stroke.colour);
+        match self.sample {
+            Sample::Line { stroke, marker } => {
+                canvas.line((left, middle), (left + SAMPLE, middle), stroke);
+                if let Some(marker) = marker {
+                    canvas.marker((left + SAMPLE / 2.0, middle), marker, stroke.colour);
+                }
+            }
+            Sample::Hatched => {
+                let area = Rect {
+                    left,
+                    top: middle - 7.0,
+                    width: SAMPLE,
+                    height: 14.0,
+                };
+                heat::hatch(canvas, area);
+                canvas.outline(area, Stroke::solid(INK, 0.7));
+            }
         }
         let at = (left + SAMPLE + 8.0, middle + TEXT_SIZE * 0.35);
         canvas.text(at, &self.label, TextStyle::new(TEXT_SIZE, Anchor::Start));
@@ -146,13 +191,8 @@ impl ColourBar {
     fn draw(&self, canvas: &mut Canvas, top: f64, bottom: f64) {
         let count = self.steps.len().max(1) as f64;
         let band = ((bottom - top) / count).min(HIGHEST_BAND);
-        let (left, height) = (SHEET_WIDTH - BAR_SPACE + 10.0, count * band);
-        let area = Rect {
-            left,
-            top: (top + bottom - height) / 2.0,
-            width: 16.0,
-            height,
-        };
+        let (middle, height) = (f64::midpoint(top, bottom), count * band);
+        let area = bar_area(middle - height / 2.0, middle + height / 2.0);
         for (index, step) in self.steps.iter().enumerate() {
             let top = area.bottom() - (index as f64 + 1.0) * band;
             canvas.fill(
@@ -167,18 +207,37 @@ impl ColourBar {
             canvas.text(at, step, TextStyle::new(SMALL_SIZE, Anchor::Start));
         }
         canvas.outline(area, Stroke::solid(INK, 1.0));
-        let widest = self
-            .steps
-            .iter()
-            .map(|step| font::width(step, SMALL_SIZE, Weight::Regular));
-        let at = (
-            area.right() + 6.0 + widest.fold(0.0, f64::max) + 4.0 + TEXT_SIZE,
-            area.top + area.height / 2.0,
-        );
-        canvas.text(
-            at,
+        bar_label(
+            canvas,
+            area,
             &self.label,
-            TextStyle::new(TEXT_SIZE, Anchor::Middle).upward(),
+            self.steps.iter().map(String::as_str),
         );
     }
+}
+
+/// Where a bar stands, beside the panels.
+fn bar_area(top: f64, bottom: f64) -> Rect {
+    Rect {
+        left: SHEET_WIDTH - BAR_SPACE + 10.0,
+        top,
+        width: 16.0,
+        height: bottom - top,
+    }
+}
+
+/// Writes what a bar means beside the labels of its values.
+pub(super) fn bar_label<'a>(
+    canvas: &mut Canvas,
+    area: Rect,
+    label: &str,
+    values: impl Iterator<Item = &'a str>,
+) {
+    let widest = values.map(|value| font::width(value, SMALL_SIZE, Weight::Regular));
+    let at = (
+        area.right() + 6.0 + widest.fold(0.0, f64::max) + 4.0 + TEXT_SIZE,
+        area.top + area.height / 2.0,
+    );
+    let style = TextStyle::new(TEXT_SIZE, Anchor::Middle).upward();
+    canvas.text(at, label, style);
 }

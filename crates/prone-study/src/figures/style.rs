@@ -35,6 +35,9 @@ pub(super) const INK: Colour = Colour(26, 26, 26);
 pub(super) const GRID: Colour = Colour(217, 217, 217);
 /// Lines between labelled ticks.
 pub(super) const MINOR_GRID: Colour = Colour(240, 240, 240);
+/// Where a map has nothing to show, and the lines of its hatching.
+pub(super) const NOTHING: Colour = Colour(224, 224, 224);
+pub(super) const HATCHING: Colour = Colour(112, 112, 112);
 /// The line at zero, the floor and other references.
 pub(super) const REFERENCE: Colour = Colour(128, 128, 128);
 
@@ -158,15 +161,39 @@ pub(super) fn sequential(position: f64) -> Colour {
         (108.0, 205.0, 90.0),
         (144.0, 215.0, 67.0),
     ];
-    let place = position.clamp(0.0, 1.0) * (ANCHORS.len() - 1) as f64;
+    between(&ANCHORS, position)
+}
+
+/// Colour at `position`, −1 to 1, of Paul Tol's diverging map "sunset": blue below zero, pale at
+/// zero, red above, apart for every kind of colour blindness.
+pub(super) fn diverging(position: f64) -> Colour {
+    const ANCHORS: [(f64, f64, f64); 11] = [
+        (54.0, 75.0, 154.0),
+        (74.0, 123.0, 183.0),
+        (110.0, 166.0, 205.0),
+        (152.0, 202.0, 225.0),
+        (194.0, 228.0, 239.0),
+        (234.0, 236.0, 204.0),
+        (254.0, 218.0, 139.0),
+        (253.0, 179.0, 102.0),
+        (246.0, 126.0, 75.0),
+        (221.0, 61.0, 45.0),
+        (165.0, 0.0, 38.0),
+    ];
+    between(&ANCHORS, f64::midpoint(position, 1.0))
+}
+
+/// The colour at `position`, 0 to 1, along equally spaced anchors.
+fn between(anchors: &[(f64, f64, f64)], position: f64) -> Colour {
+    let place = position.clamp(0.0, 1.0) * (anchors.len() - 1) as f64;
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "0 to 7"
+        reason = "0 to 10"
     )]
-    let below = (place as usize).min(ANCHORS.len() - 2);
+    let below = (place as usize).min(anchors.len() - 2);
     let part = place - below as f64;
-    let (a, b) = (ANCHORS[below], ANCHORS[below + 1]);
+    let (a, b) = (anchors[below], anchors[below + 1]);
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -194,6 +221,18 @@ mod tests {
     fn sequential_colours_grow_lighter() {
         let steps: Vec<f64> = (0..=10).map(|i| luma(step_colour(i, 11))).collect();
         assert!(steps.windows(2).all(|pair| pair[0] < pair[1]), "{steps:?}");
+    }
+
+    #[test]
+    fn diverging_colours_are_lightest_at_zero_and_darken_outwards() {
+        let half = |sign: f64| (0..=10).map(move |i| luma(diverging(sign * f64::from(i) / 10.0)));
+        for sign in [-1.0, 1.0] {
+            let steps: Vec<f64> = half(sign).collect();
+            assert!(steps.windows(2).all(|pair| pair[0] > pair[1]), "{steps:?}");
+        }
+        // Without hue the two ends are alike; the two signs differ in red against blue.
+        let (below, above) = (diverging(-0.5), diverging(0.5));
+        assert!(below.2 > below.0 && above.0 > above.2);
     }
 
     #[test]

@@ -219,6 +219,13 @@ impl Canvas {
         self.element("</g>");
     }
 
+    /// Draws without smoothing edges, so that areas side by side show no seam.
+    pub(super) fn crisp(&mut self, draw: impl FnOnce(&mut Self)) {
+        self.element("<g shape-rendering=\"crispEdges\">");
+        draw(self);
+        self.element("</g>");
+    }
+
     /// The document, with a name and a description for readers who do not see it.
     pub(super) fn finish(self, title: &str, description: &str) -> String {
         let (width, height) = (number(self.size.0), number(self.size.1));

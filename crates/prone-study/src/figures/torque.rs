@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::panel::{Curve, Note, Panel, Rule};
-use super::sheet::{ColourBar, KeyEntry, Sheet};
+use super::sheet::{Bar, ColourBar, KeyEntry, Sheet};
 use super::style::{
     CURVE_WIDTH, Dash, Fill, INK, JOINT_STROKES, Marker, SMALL_MARKER_RADIUS, Shape, Stroke,
 };
@@ -92,11 +92,7 @@ fn by_duration(gait: &str, runs: &[&PullRecord], number: &'static str) -> Figure
     let key = JOINTS
         .iter()
         .zip(JOINT_STROKES)
-        .map(|(joint, stroke)| KeyEntry {
-            label: (*joint).to_owned(),
-            stroke,
-            marker: None,
-        });
+        .map(|(joint, stroke)| KeyEntry::line((*joint).to_owned(), stroke, None));
     let sheet = Sheet {
         key: key.collect(),
         bar: None,
@@ -144,7 +140,7 @@ fn by_joint(gait: &str, runs: &[&PullRecord], number: &'static str, span: Span) 
     let sheet = Sheet {
         panels: panels.collect(),
         key: span.key(),
-        bar: Some(bar),
+        bar: Some(Bar::Steps(bar)),
         columns: 2,
         frame_height: 230.0,
     };
@@ -279,10 +275,9 @@ impl Span {
     }
 
     fn key(self) -> Vec<KeyEntry> {
-        let entry = self.divergence().map(|(at_s, stroke)| KeyEntry {
-            label: format!("{at_s} s: where the thesis sees the curves part (published)"),
-            stroke,
-            marker: None,
+        let entry = self.divergence().map(|(at_s, stroke)| {
+            let label = format!("{at_s} s: where the thesis sees the curves part (published)");
+            KeyEntry::line(label, stroke, None)
         });
         entry.into_iter().collect()
     }

@@ -15,6 +15,12 @@ use super::objective::{NoMotor, Objective};
 use super::pricing::{self, ChainRules, Clearance, Pricing, Share};
 use super::published_problem::{self, PublishedProblem, PublishedProblemError};
 use super::static_pricing::StaticPricing;
+use crate::torque_map::{NodeGrid, NodeGridError};
+
+/// Grid of the table that the statics fills for the published objective: the finer published one,
+/// with θ4 up to where the published gaits go (THEORY.md §5), degrees.
+const STEP_DEG: f64 = 2.5;
+const THETA4_MAX_DEG: f64 = 27.5;
 
 /// What is minimised.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,6 +80,9 @@ pub enum PricerError {
     /// The published objective cannot be made.
     #[error(transparent)]
     Published(#[from] PublishedProblemError),
+    /// There is no grid to measure a table on, which constants exclude.
+    #[error(transparent)]
+    Grid(#[from] NodeGridError),
     /// It looks torques up; a simulation of a whole gait has no table.
     #[error(
         "the objective `published` looks torques up in a table; its source is a file or `statics`"
@@ -146,8 +155,8 @@ fn published<'a>(
     let map = match terms.source {
         Source::Map(map) => map,
         Source::Statics => {
-            let grid = published_problem::grid().map_err(PublishedProblemError::from)?;
-            measured = TorqueMap::measure(grid, &statics(world, terms.base)?);
+            let grid = NodeGrid::new(STEP_DEG, THETA4_MAX_DEG)?;
+            measured = TorqueMap::measure(*grid.grid(), &statics(world, terms.base)?);
             &measured
         }
         Source::Dynamics => return Err(PricerError::PublishedNeedsTable),

@@ -19,7 +19,7 @@ use prone::cost::published::{
 use prone::gait::{Curve, CurveError, CurveForm, Gait, LimitsPolicy};
 use prone::mapping::{ArmMode, MappingVariant};
 use prone::robot::Robot;
-use prone::torque_map::{Axis, Grid, GridError, TorqueMap};
+use prone::torque_map::TorqueMap;
 use prone_optim::{Interval, IntervalError, Problem, Score};
 
 /// Bound of every coefficient.
@@ -48,9 +48,6 @@ pub enum PublishedProblemError {
     /// The map cannot serve.
     #[error(transparent)]
     Map(#[from] PublishedError),
-    /// The grid has no axes, which constants exclude.
-    #[error(transparent)]
-    Grid(#[from] GridError),
     /// The bounds are no interval, which a constant excludes.
     #[error(transparent)]
     Bounds(#[from] IntervalError),
@@ -92,16 +89,6 @@ pub fn objective(
         map,
         rules,
     )?)
-}
-
-/// The grid of the published table, extended to θ4 = 27.5°, in steps of 2.5° (THEORY.md §5).
-pub(super) fn grid() -> Result<Grid, GridError> {
-    let axis = |low: f64, high: f64, nodes| Axis::new(low.to_radians(), high.to_radians(), nodes);
-    Ok(Grid {
-        knee: axis(-5.0, 45.0, 21)?,
-        hip: axis(-30.0, 27.5, 24)?,
-        upper_arm: axis(-90.0, -30.0, 25)?,
-    })
 }
 
 fn published_chain(robot: &Robot) -> Result<ClosedChain, PublishedProblemError> {

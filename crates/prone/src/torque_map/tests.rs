@@ -1,6 +1,8 @@
 use proptest::prelude::*;
 
 use super::*;
+use crate::mapping::{ArmMode, Mapping, MappingVariant};
+use crate::robot::testing::two_armed;
 
 fn grid() -> Grid {
     Grid {
@@ -147,16 +149,20 @@ fn limit_errors_name_row_column_and_value() {
     };
     assert_eq!(
         broken(2, ",-0.6,", ",oops,"),
-        "row 3, column theta5: `oops` is not a number that belongs there"
+        "line 3, column theta5: `oops` is not a number that belongs there"
     );
     assert_eq!(
         broken(1, ",-0.6,", ",NaN,"),
-        "row 2, column theta5: `NaN` is not a number that belongs there"
+        "line 2, column theta5: `NaN` is not a number that belongs there"
     );
-    assert_eq!(broken(4, "1.8,", ""), "row 5 has 13 columns, not 14");
+    assert_eq!(
+        broken(4, "1.8,", ""),
+        "line 5 has 13 columns, not 14 as the rows before it"
+    );
+    assert_eq!(broken(0, "1.8,", ""), "line 1 has 13 columns, not 14 or 18");
     assert_eq!(
         broken(6, ",0.1,0.2,-0.6", ",0.05,0.2,-0.6"),
-        "row 7, column theta3: 0.05 rad, but a regular grid has 0.10000 there"
+        "line 7, column theta3: 0.05 rad, but a regular grid has 0.10000 there"
     );
     let short = table()[..7].join("\n");
     assert!(matches!(
@@ -164,4 +170,203 @@ fn limit_errors_name_row_column_and_value() {
         Err(ParseError::Shape { rows: 7, .. })
     ));
     assert!(parse("").is_err());
+}
+
+#[test]
+fn limit_lines_are_those_of_the_file() {
+    let mut lines = vec!["# by hand".to_owned(), "#theta1,theta2".to_owned()];
+    lines.extend(table());
+    let commented = |lines: &[String]| parse(&lines.join("\n"));
+    assert_eq!(commented(&lines), commented(&table()));
+    lines.insert(5, "# in between".to_owned());
+    lines[6] = lines[6].replace("1.8", "x");
+    assert_eq!(
+        commented(&lines).unwrap_err().to_string(),
+        "line 7, column theta1: `x` is not a number that belongs there"
+    );
+    lines[6] = String::new();
+    assert_eq!(
+        commented(&lines).unwrap_err().to_string(),
+        "line 7 has 1 columns, not 14 as the rows before it"
+    );
+}
+
+#[test]
+fn limit_a_row_without_torques_says_why() {
+    let with_forces = |row: &str| format!("{row},10,20,0,0");
+    let rows: Vec<_> = table().iter().map(|row| with_forces(row)).collect();
+    let first = |row: &str| {
+        let mut rows = rows.clone();
+        row.clone_into(&mut rows[0]);
+        parse_recorded(&rows.join("\n")).map(|recorded| {
+            let index = recorded.map().grid().recorded_order().next().unwrap();
+            (recorded.map().rows()[index], recorded.contacts()[index])
+        })
+    };
+    let masked = |mask| Row::Masked {
+        mask,
+        recorded: None,
+    };
+    let nan = "NaN,NaN,NaN,NaN";
+    assert_eq!(
+        first(&format!("NaN,NaN,0,0.2,NaN,-0.5236,{nan},{nan},{nan}")).unwrap(),
+        (masked(Mask::Open), None)
+    );
+    assert_eq!(
+        first(&format!("1.8,-2.1,0,0.2,-0.6,-0.5236,0,0,0,0,{nan},{nan}")).unwrap(),
+        (masked(Mask::Failed), None)
+    );
+    let (row, contacts) = first(&rows[0]).unwrap();
+    assert!(matches!(row, Row::Torques(_)));
+    assert_eq!(contacts.unwrap().to_string(), "toe+elbow");
+    for (row, column) in [
+        (
+            format!("NaN,NaN,NaN,0.2,NaN,-0.5236,{nan},{nan},{nan}"),
+            "theta3",
+        ),
+        (
+            format!("1.8,-2.1,0,0.2,-0.6,-0.5236,0,0,0,NaN,1,1,1,1,{nan}"),
+            "ShoulderPitch",
+        ),
+        (
+            format!("1.8,-2.1,0,0.2,-0.6,-0.5236,0,0,0,0,1,inf,1,1,{nan}"),
+            "tau3",
+        ),
+        (
+            format!("1.8,-2.1,0,0.2,-0.6,-0.5236,0,0,0,0,{nan},1,2,3,inf"),
+            "leg",
+        ),
+    ] {
+        let message = first(&row).unwrap_err().to_string();
+        assert!(
+            message.starts_with(&format!("line 1, column {column}: ")),
+            "{message}"
+        );
+    }
+    let mut mixed = rows;
+    mixed[3] = table()[3].clone();
+    assert_eq!(
+        parse(&mixed.join("\n")).unwrap_err().to_string(),
+        "line 4 has 14 columns, not 18 as the rows before it"
+    );
+}
+
+/// A hundredth of 60 N is 0.6 N.
+#[test]
+fn limit_a_grazing_group_does_not_carry() {
+    let mode = |forces| ContactForces::from_array(forces).to_string();
+    assert_eq!(mode([30.0, 29.5, 0.0, 0.5]), "toe+elbow");
+    assert_eq!(mode([30.0, 0.0, 29.0, 1.0]), "toe+torso+leg");
+    assert_eq!(mode([0.0; 4]), "none");
+}
+
+#[test]
+fn limit_contacts_must_be_those_of_the_grid() {
+    let map = TorqueMap::measure(grid(), &Multilinear);
+    assert!(RecordedMap::new(map, vec![None; 59]).is_err());
+}
+
+/// The two-armed robot's chain closes in a part of this grid only.
+fn reach() -> Grid {
+    Grid {
+        knee: Axis::new(-0.1, 2.4, 5).unwrap(),
+        hip: Axis::new(-0.5, 0.5, 3).unwrap(),
+        upper_arm: Axis::new(-1.6, -0.5, 4).unwrap(),
+    }
+}
+
+fn four(range: std::ops::Range<f64>) -> impl Strategy<Value = [f64; 4]> {
+    prop::array::uniform4(range)
+}
+
+proptest! {
+    #[test]
+    fn identity_what_is_written_is_read(
+        torques in prop::collection::vec(four(-9.0..9.0), 60),
+        forces in prop::collection::vec(prop::option::of(four(0.0..60.0)), 60),
+        failed in prop::collection::vec(prop::bool::weighted(0.1), 60),
+    ) {
+        let robot = two_armed();
+        let mapping = Mapping::new(&robot, MappingVariant::Original, ArmMode::Fixed).unwrap();
+        let masked = |mask| Row::Masked { mask, recorded: None };
+        let rows: Vec<_> = (0..60).map(|index| match mapping.chain().close(reach().node(index)) {
+            Err(_) => masked(Mask::Open),
+            Ok(_) if failed[index] => masked(Mask::Failed),
+            Ok(_) => Row::Torques(JointTorques::from_array(torques[index])),
+        }).collect();
+        let open = rows.iter().filter(|row| **row == masked(Mask::Open)).count();
+        prop_assert!(open > 0 && open < 60, "{open} of 60 rows are open");
+        let contacts: Vec<_> = rows.iter().zip(&forces).map(|(row, forces)| match row {
+            Row::Torques(_) => forces.map(ContactForces::from_array),
+            Row::Masked { .. } => None,
+        }).collect();
+        let map = TorqueMap::new(reach(), rows).unwrap();
+        let written = RecordedMap::new(map, contacts).unwrap();
+        let comments_written = ["theta1, 2, 3".to_owned(), String::new()];
+        let text = write(&comments_written, &robot, &mapping, &written);
+        prop_assert_eq!(text.lines().count(), 62);
+        prop_assert!(comments(&text).eq(comments_written.iter().map(String::as_str)));
+        let read = parse_recorded(&text).unwrap();
+
+        // Ten decimals are written.
+        let near = |a: f64, b: f64| (a - b).abs() < 1e-10;
+        let all_near = |a: [f64; 4], b: [f64; 4]| a.iter().zip(b).all(|(a, b)| near(*a, b));
+        for (ours, theirs) in [
+            (written.map().grid().knee, read.map().grid().knee),
+            (written.map().grid().hip, read.map().grid().hip),
+            (written.map().grid().upper_arm, read.map().grid().upper_arm),
+        ] {
+            prop_assert_eq!(ours.len(), theirs.len());
+            prop_assert!(near(ours.low(), theirs.low()) && near(ours.high(), theirs.high()));
+        }
+        for (ours, theirs) in written.map().rows().iter().zip(read.map().rows()) {
+            match (ours, theirs) {
+                (Row::Torques(a), Row::Torques(b)) => prop_assert!(all_near(a.to_array(), b.to_array())),
+                (ours, theirs) => prop_assert_eq!(ours, theirs),
+            }
+        }
+        for (ours, theirs) in written.contacts().iter().zip(read.contacts()) {
+            match (ours, theirs) {
+                (Some(a), Some(b)) => prop_assert!(all_near(a.to_array(), b.to_array())),
+                (ours, theirs) => prop_assert_eq!(ours, theirs),
+            }
+        }
+    }
+}
+
+/// Chain and joint angles of a written row belong together, as in the original's: KneePitch is
+/// θ3 up to the robot's zero, and the row says by which angles it was made.
+#[test]
+fn identity_written_angles_close_the_chain() {
+    let robot = two_armed();
+    let mapping = Mapping::new(&robot, MappingVariant::Original, ArmMode::Fixed).unwrap();
+    let map = TorqueMap::measure(reach(), &Multilinear);
+    let contacts = vec![None; reach().len()];
+    let text = write(
+        &[],
+        &robot,
+        &mapping,
+        &RecordedMap::new(map, contacts).unwrap(),
+    );
+    let mut closed = 0;
+    for line in text.lines() {
+        let numbers: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+        if numbers[0].is_nan() {
+            assert!(numbers[6..10].iter().all(|angle| angle.is_nan()));
+            continue;
+        }
+        closed += 1;
+        let chain = mapping
+            .chain()
+            .close(at(numbers[2], numbers[3], numbers[5]))
+            .unwrap();
+        let sum: f64 = numbers[..5].iter().sum();
+        assert!((sum - numbers[5]).abs() < 1e-9, "equation (3)");
+        let joints = mapping.joint_angles(&robot, &chain).unwrap();
+        let right = robot.chain.right.pitch_joints().map(|joint| joints[joint]);
+        for (angle, written) in right.iter().zip(&numbers[6..10]) {
+            assert!((angle - written).abs() < 1e-9);
+        }
+    }
+    assert!(closed > 0);
 }

@@ -1,0 +1,44 @@
+//! `prone torque-map`: build, compare, plot.
+
+mod build;
+mod compare;
+mod plot;
+
+use std::path::Path;
+
+use anyhow::anyhow;
+
+use prone::torque_map::{RecordedMap, parse_recorded};
+use prone_files::text_file;
+use prone_study::run_info::Program;
+
+use crate::Failure;
+use crate::args::TorqueMapCommand;
+
+/// The largest map that is read; the largest that is built has 50 MB.
+const LARGEST_MAP_BYTES: u64 = 64 << 20;
+
+pub(crate) fn run(command: &TorqueMapCommand) -> Result<(), Failure> {
+    match command {
+        TorqueMapCommand::Build(args) => build::run(args),
+        TorqueMapCommand::Compare(args) => compare::run(args),
+        TorqueMapCommand::Plot(args) => plot::run(args),
+    }
+}
+
+fn program() -> Program {
+    Program {
+        version: env!("CARGO_PKG_VERSION"),
+        commit: env!("PRONE_COMMIT"),
+    }
+}
+
+fn text(path: &Path) -> Result<String, Failure> {
+    text_file::read_at_most(path, LARGEST_MAP_BYTES)
+        .map_err(|error| Failure::Input(anyhow!("cannot read {}: {error}", path.display())))
+}
+
+fn read(path: &Path) -> Result<RecordedMap, Failure> {
+    parse_recorded(&text(path)?)
+        .map_err(|error| Failure::Input(anyhow!("{}: {error}", path.display())))
+}

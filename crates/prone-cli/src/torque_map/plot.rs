@@ -1,0 +1,34 @@
+//! `prone torque-map plot`.
+
+use std::io::Write as _;
+
+use anyhow::anyhow;
+
+use prone::torque_map::{comments, parse};
+use prone_study::output;
+use prone_study::torque_map::plot::{self, MapFile};
+
+use crate::args::PlotArgs;
+use crate::{Failure, interrupt};
+
+pub(super) fn run(args: &PlotArgs) -> Result<(), Failure> {
+    let name = args.map.display();
+    let text = super::text(&args.map)?;
+    let map = parse(&text).map_err(|error| Failure::Input(anyhow!("{name}: {error}")))?;
+    let slices = plot::slices(&map, &args.theta3_deg)
+        .map_err(|error| Failure::Input(anyhow!("{name}: {error}")))?;
+    interrupt::listen()?;
+    output::check(&args.out).map_err(Failure::input)?;
+    let file = MapFile {
+        name: name.to_string(),
+        comments: comments(&text).map(str::to_owned).collect(),
+    };
+    let artefacts =
+        plot::artefacts(&map, &slices, &file, &super::program()).map_err(Failure::work)?;
+    interrupt::publish(|| output::publish(&args.out, &artefacts).map_err(Failure::work))?;
+    let mut out = std::io::stdout().lock();
+    for file in artefacts.keys().filter(|file| *file != output::RUN_FILE) {
+        writeln!(out, "{}", args.out.join(file).display())?;
+    }
+    Ok(())
+}

@@ -1,0 +1,188 @@
+//! Measuring every node of a map, on all threads, with a journal.
+
+use std::path::Path;
+use std::sync::{Mutex, PoisonError};
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+use prone::statics::{Stance, StaticTorques, SupportRule, SymmetryError};
+use prone::torque_map::{self, GridError, Mask, RecordedMap, Row, TorqueMap};
+use prone_sim::settled::SettledTorques;
+use prone_sim::{World, WorldError};
+
+use super::gauge::{self, Entry, Gauge, SettledGauge, StaticGauge};
+use super::job::REGIME;
+use super::{Job, Journal, JournalError, Opening, Source};
+
+/// Is told how a build goes, from many threads.
+pub trait Observer: Sync {
+    /// An earlier build left that many rows.
+    fn taken_over(&self, rows: usize);
+    /// One more row has been measured.
+    fn row_done(&self);
+    /// Whether to begin no further row.
+    fn stop(&self) -> bool;
+}
+
+/// A map, ready to be put in place.
+#[derive(Debug)]
+pub struct Built {
+    /// The file.
+    pub text: String,
+    /// What is in it.
+    pub summary: Summary,
+    /// To be removed once the file is in place.
+    pub journal: Journal,
+}
+
+/// What is in a map.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Summary {
+    /// Where its torques come from.
+    pub source: &'static str,
+    /// Nodes of its grid.
+    pub rows: usize,
+    /// Rows that have torques.
+    pub with_torques: usize,
+    /// Rows where the chain does not close.
+    pub open: usize,
+    /// Rows where the source had no torques.
+    pub failed: usize,
+}
+
+/// Why there is no map.
+#[derive(Debug, thiserror::Error)]
+pub enum BuildError {
+    /// The statics needs a mirrored robot.
+    #[error(transparent)]
+    Symmetry(#[from] SymmetryError),
+    /// The engine refuses the robot's world.
+    #[error(transparent)]
+    World(#[from] WorldError),
+    /// The journal cannot be used.
+    #[error(transparent)]
+    Journal(#[from] JournalError),
+    /// The rows do not fill the grid.
+    #[error(transparent)]
+    Grid(#[from] GridError),
+    /// The user asked to stop; so many rows are in the journal, which is gone if there are none.
+    #[error("stopped with {kept} of {rows} rows done")]
+    Stopped {
+        /// Rows done.
+        kept: usize,
+        /// Rows of the map.
+        rows: usize,
+    },
+}
+
+/// Builds a map on the current rayon pool. Its text depends on the job alone, not on threads or on
+/// what the journal held.
+///
+/// # Errors
+/// [`BuildError`]; rows that were measured are then in the journal.
+pub fn run(
+    job: &Job<'_>,
+    journal: &Path,
+    opening: Opening,
+    observer: &dyn Observer,
+) -> Result<Built, BuildError> {
+    let robot = job.robot.robot();
+    let mapping = job.mapping.clone();
+    // The journal is opened last: what cannot be measured leaves none.
+    let open = || Journal::open(journal, &job.identity(), job.rows(), opening);
+    let (entries, journal) = match job.source {
+        Source::Statics => {
+            let stance = Stance::unsqueezed(SupportRule::AnyShape);
+            let source = StaticTorques::new(robot, mapping, &robot.study_stops(), stance)?;
+            measure(job, &StaticGauge { robot, source }, open()?, observer)?
+        }
+        Source::Simulation => {
+            let world = World::new(job.robot, REGIME)?;
+            let source = SettledTorques::new(&world, mapping);
+            let gauge = SettledGauge {
+                world: &world,
+                source,
+            };
+            measure(job, &gauge, open()?, observer)?
+        }
+    };
+    let recorded = recorded(job, &entries)?;
+    let text = torque_map::write(&job.comments(), robot, &job.mapping, &recorded);
+    let masked = |mask| recorded.map().masked(mask);
+    let (rows, open, failed) = (job.rows(), masked(Mask::Open), masked(Mask::Failed));
+    let summary = Summary {
+        source: job.source.name(),
+        rows,
+        with_torques: rows - open - failed,
+        open,
+        failed,
+    };
+    Ok(Built {
+        text,
+        summary,
+        journal,
+    })
+}
+
+/// Entries in the grid's order: those of the journal, and measured ones for the rest.
+fn measure(
+    job: &Job<'_>,
+    gauge: &impl Gauge,
+    (journal, mut entries): (Journal, Vec<Option<Entry>>),
+    observer: &dyn Observer,
+) -> Result<(Vec<Entry>, Journal), BuildError> {
+    let rows = job.rows();
+    let missing: Vec<usize> = (0..rows).filter(|row| entries[*row].is_none()).collect();
+    observer.taken_over(rows - missing.len());
+    let journal = Mutex::new(journal);
+    let measured: Result<Vec<Option<(usize, Entry)>>, JournalError> = missing
+        .par_iter()
+        .with_max_len(1)
+        .map(|&row| {
+            if observer.stop() {
+                return Ok(None);
+            }
+            let entry = gauge::entry(gauge, job.grid.grid().node(row));
+            let mut journal = journal.lock().unwrap_or_else(PoisonError::into_inner);
+            journal.append(row, &entry)?;
+            drop(journal);
+            observer.row_done();
+            Ok(Some((row, entry)))
+        })
+        .collect();
+    let mut journal = journal.into_inner().unwrap_or_else(PoisonError::into_inner);
+    journal.flush()?;
+    for (row, entry) in measured?.into_iter().flatten() {
+        entries[row] = Some(entry);
+    }
+    let done: Vec<Entry> = entries.into_iter().flatten().collect();
+    if done.len() == rows {
+        return Ok((done, journal));
+    }
+    if done.is_empty() {
+        // One that stays is taken over with its no rows.
+        let _ = journal.remove();
+    }
+    Err(BuildError::Stopped {
+        kept: done.len(),
+        rows,
+    })
+}
+
+fn recorded(job: &Job<'_>, entries: &[Entry]) -> Result<RecordedMap, GridError> {
+    let (rows, contacts) = entries
+        .iter()
+        .map(|entry| match *entry {
+            Entry::Held { torques, contacts } => (Row::Torques(torques), Some(contacts)),
+            Entry::Masked(mask) => {
+                let recorded = None;
+                (Row::Masked { mask, recorded }, None)
+            }
+        })
+        .unzip();
+    RecordedMap::new(TorqueMap::new(*job.grid.grid(), rows)?, contacts)
+}
+
+#[cfg(test)]
+mod tests;

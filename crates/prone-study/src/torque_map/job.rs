@@ -1,0 +1,169 @@
+//! What is to be built: a source, a grid and a robot, under the conditions of the published table.
+//!
+//! Those are the mapping `original`, fixed arms, the study's stops and, in simulation, the regime
+//! `table`. The statics lets any shape carry and squeezes nothing.
+
+use std::collections::BTreeMap;
+
+use prone::mapping::{ArmMode, Mapping, MappingError, MappingVariant};
+use prone::statics::{HalfRobot, SymmetryError};
+use prone::torque_map::COLUMNS;
+use prone_sim::settled::STILL;
+use prone_sim::{LoadedRobot, Regime};
+
+use super::NodeGrid;
+use crate::run_info::Program;
+
+const VARIANT: MappingVariant = MappingVariant::Original;
+const ARM: ArmMode = ArmMode::Fixed;
+
+/// The regime of a simulated map.
+pub(super) const REGIME: Regime = Regime::TABLE;
+
+/// Where torques come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Source {
+    /// A rigid body at rest, by moment balance.
+    Statics,
+    /// A pose held in the engine until nothing changes.
+    Simulation,
+}
+
+/// A map to build.
+#[derive(Debug)]
+pub struct Job<'r> {
+    pub(super) robot: &'r LoadedRobot,
+    pub(super) source: Source,
+    pub(super) grid: NodeGrid,
+    pub(super) mapping: Mapping,
+    program: Program,
+}
+
+/// Why a map of a robot cannot be built.
+#[derive(Debug, thiserror::Error)]
+pub enum JobError {
+    /// The robot lacks what the mapping needs.
+    #[error(transparent)]
+    Mapping(#[from] MappingError),
+    /// The statics needs a mirrored robot.
+    #[error(transparent)]
+    Symmetry(#[from] SymmetryError),
+}
+
+/// By what two builds are told apart, name by name.
+pub(super) type Identity = BTreeMap<String, String>;
+
+impl Source {
+    /// Name in files and on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Statics => "statics",
+            Self::Simulation => "simulation",
+        }
+    }
+
+    const fn meaning(self) -> &'static str {
+        match self {
+            Self::Statics => "rigid body at rest, any shape may carry, no squeeze",
+            Self::Simulation => "pose held until at rest",
+        }
+    }
+
+    const fn regime(self) -> &'static str {
+        match self {
+            Self::Statics => "none, the study's stops hold",
+            Self::Simulation => REGIME.name,
+        }
+    }
+}
+
+impl<'r> Job<'r> {
+    /// A map of a robot, to be built by a program.
+    ///
+    /// # Errors
+    /// [`JobError`], before anything is measured.
+    pub fn new(
+        robot: &'r LoadedRobot,
+        source: Source,
+        grid: NodeGrid,
+        program: &Program,
+    ) -> Result<Self, JobError> {
+        let mapping = Mapping::new(robot.robot(), VARIANT, ARM)?;
+        if source == Source::Statics {
+            HalfRobot::of(robot.robot())?;
+        }
+        Ok(Self {
+            robot,
+            source,
+            grid,
+            mapping,
+            program: program.clone(),
+        })
+    }
+
+    /// How many rows the map has.
+    pub fn rows(&self) -> usize {
+        self.grid.grid().len()
+    }
+
+    /// What decides every byte of the result.
+    pub(super) fn identity(&self) -> Identity {
+        let Program { version, commit } = self.program;
+        let mut identity: Identity = self
+            .grid
+            .bounds()
+            .map(|(name, value)| (name.to_owned(), value))
+            .into();
+        let others = [
+            ("program", format!("prone {version}, commit {commit}")),
+            ("source", self.source.name().to_owned()),
+            ("regime", self.source.regime().to_owned()),
+            ("mapping", VARIANT.name().to_owned()),
+            ("arms", ARM.name().to_owned()),
+            ("robot", self.robot.robot().name.clone()),
+            ("robot sha256", self.robot.files().hash()),
+            ("engine", prone_sim::engine_version()),
+        ];
+        identity.extend(others.map(|(name, value)| (name.to_owned(), value)));
+        identity
+    }
+
+    /// The comments at the head of the file, one per line.
+    pub(super) fn comments(&self) -> Vec<String> {
+        let Program { version, commit } = self.program;
+        let grid = self.grid.grid();
+        let (knees, hips, arms) = (grid.knee.len(), grid.hip.len(), grid.upper_arm.len());
+        let [theta3, theta4, alpha, step] = self.grid.bounds().map(|bound| bound.1);
+        let robot = &self.robot.robot().name;
+        vec![
+            format!("torque map by prone {version}, commit {commit}"),
+            format!("source: {}: {}", self.source.name(), self.still()),
+            format!("regime: {}", self.source.regime()),
+            format!("mapping: {}; arms: {}", VARIANT.name(), ARM.name()),
+            format!("robot: {robot}, sha256 {}", self.robot.files().hash()),
+            format!("engine: {}", prone_sim::engine_version()),
+            format!("grid: theta3 {theta3}, theta4 {theta4}, alpha {alpha}, step {step}"),
+            format!("rows: {knees} x {hips} x {arms} = {}", grid.len()),
+            "order: alpha outermost, descending; theta3 ascending; theta4 innermost, descending"
+                .to_owned(),
+            "units: angles rad, torques N·m, forces N".to_owned(),
+            "tau2 to tau5: minus the motor torque about the joint's axis, right side: the sign of \
+             the published recordings"
+                .to_owned(),
+            "toe to leg: normal force of the floor on that part, both sides".to_owned(),
+            "NaN: without theta1 no chain closes there, else the source had no torques".to_owned(),
+            format!("columns: {}", COLUMNS.join(",")),
+        ]
+    }
+
+    /// What the source does, with its number where it has one.
+    fn still(&self) -> String {
+        let meaning = self.source.meaning();
+        match self.source {
+            Source::Statics => meaning.to_owned(),
+            Source::Simulation => format!(
+                "{meaning}: no motor's mean torque changes by more than {STILL} N·m per control step"
+            ),
+        }
+    }
+}

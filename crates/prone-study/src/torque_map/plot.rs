@@ -1,0 +1,132 @@
+//! Slices of a map as the files of a result folder.
+
+use serde::Serialize;
+
+use prone::torque_map::TorqueMap;
+
+use crate::figures::{self, FigureError};
+use crate::output::{Artefacts, RUN_FILE};
+use crate::reproduce::{PNG_SCALE, json};
+use crate::run_info::Program;
+
+/// Slices that are drawn where none are asked for.
+const SLICES: usize = 4;
+
+/// How far a value may be from its node, degrees: half of the hundredth that drawings print.
+const NODE_TOLERANCE_DEG: f64 = 0.005;
+
+/// Where a drawn map came from, for `run.json`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct MapFile {
+    /// Its name as typed.
+    pub name: String,
+    /// Its comments, which say what made it.
+    pub comments: Vec<String>,
+}
+
+/// Why a map is not drawn.
+#[derive(Debug, thiserror::Error)]
+pub enum PlotError {
+    /// There is no slice there.
+    #[error(
+        "theta3 = {theta3_deg:?}° is no node of the map: they go from {low_deg:.2}° to {high_deg:.2}° by {step_deg:.2}°"
+    )]
+    Slice {
+        /// What was asked for, degrees.
+        theta3_deg: f64,
+        /// First node, degrees.
+        low_deg: f64,
+        /// Last node, degrees.
+        high_deg: f64,
+        /// Distance of neighbours, degrees.
+        step_deg: f64,
+    },
+    /// A drawing cannot be made.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
+    /// `run.json` cannot be written.
+    #[error("cannot write {RUN_FILE}: {0}")]
+    Json(#[from] serde_json::Error),
+}
+
+/// What was drawn: `run.json`.
+#[derive(Serialize)]
+struct PlotInfo<'a> {
+    program: &'static str,
+    #[serde(flatten)]
+    built: &'a Program,
+    map: &'a str,
+    map_comments: &'a [String],
+    figures: Vec<FigureInfo>,
+}
+
+#[derive(Serialize)]
+struct FigureInfo {
+    file: String,
+    title: String,
+    caption: String,
+}
+
+/// Nodes of θ3 to draw: those asked for, degrees, or four evenly spread ones.
+///
+/// # Errors
+/// [`PlotError::Slice`].
+pub fn slices(map: &TorqueMap, wanted_deg: &[f64]) -> Result<Vec<usize>, PlotError> {
+    let axis = map.grid().knee;
+    let node = |theta3_deg: f64| {
+        let near = |node: &usize| {
+            (axis.value(*node).to_degrees() - theta3_deg).abs() <= NODE_TOLERANCE_DEG
+        };
+        (0..axis.len()).find(near).ok_or(PlotError::Slice {
+            theta3_deg,
+            low_deg: axis.low().to_degrees(),
+            high_deg: axis.high().to_degrees(),
+            step_deg: axis.step().to_degrees(),
+        })
+    };
+    let mut slices = if wanted_deg.is_empty() {
+        let last = axis.len() - 1;
+        let gaps = SLICES - 1;
+        // The nearest node, in whole numbers.
+        (0..SLICES).map(|k| (k * last + gaps / 2) / gaps).collect()
+    } else {
+        let nodes = wanted_deg.iter().map(|deg| node(*deg));
+        nodes.collect::<Result<Vec<_>, _>>()?
+    };
+    slices.sort_unstable();
+    slices.dedup();
+    Ok(slices)
+}
+
+/// Drawings of some slices, and `run.json`.
+///
+/// # Errors
+/// [`PlotError`].
+pub fn artefacts(
+    map: &TorqueMap,
+    slices: &[usize],
+    file: &MapFile,
+    program: &Program,
+) -> Result<Artefacts, PlotError> {
+    let mut artefacts = Artefacts::new();
+    let mut infos = Vec::new();
+    for figure in figures::torque_map_figures(map, slices)? {
+        let png = figure.png(PNG_SCALE)?;
+        artefacts.insert(format!("{}.png", figure.stem), png);
+        artefacts.insert(format!("{}.svg", figure.stem), figure.svg.into_bytes());
+        infos.push(FigureInfo {
+            file: format!("{}.svg", figure.stem),
+            title: figure.title,
+            caption: figure.caption,
+        });
+    }
+    let info = PlotInfo {
+        program: "prone",
+        built: program,
+        map: &file.name,
+        map_comments: &file.comments,
+        figures: infos,
+    };
+    artefacts.insert(RUN_FILE.into(), json(&info)?);
+    Ok(artefacts)
+}
