@@ -4,7 +4,6 @@ use std::path::Path;
 
 use anyhow::anyhow;
 use serde_json::{Value, json};
-use sha2::{Digest as _, Sha256};
 
 use prone::cost::published::PublishedRules;
 use prone::gait::{Gait, PhaseDuration};
@@ -242,16 +241,18 @@ fn source(given: &str) -> Result<LoadedSource, Failure> {
         "dynamics" => return Ok(LoadedSource::Dynamics),
         _ => {}
     }
-    let text = text_file::read(Path::new(given)).map_err(|error| {
-        Failure::Input(anyhow!(
-            "--source {given} is neither statics nor dynamics, and cannot be read: {error}"
-        ))
-    })?;
+    let path = Path::new(given);
+    if !path.exists() {
+        return Err(Failure::Input(anyhow!(
+            "--source {given} is neither statics, dynamics nor a file"
+        )));
+    }
+    let text = crate::torque_map::text(path)?;
     let map =
         torque_map::parse(&text).map_err(|error| Failure::Input(anyhow!("{given}: {error}")))?;
     Ok(LoadedSource::Map {
         map: Box::new(map),
-        hash: format!("{:x}", Sha256::digest(&text)),
+        hash: text_file::sha256(&[&text]),
     })
 }
 

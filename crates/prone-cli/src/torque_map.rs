@@ -33,7 +33,8 @@ fn program() -> Program {
     }
 }
 
-fn text(path: &Path) -> Result<String, Failure> {
+/// The text of a map's file.
+pub(crate) fn text(path: &Path) -> Result<String, Failure> {
     text_file::read_at_most(path, LARGEST_MAP_BYTES)
         .map_err(|error| Failure::Input(anyhow!("cannot read {}: {error}", path.display())))
 }

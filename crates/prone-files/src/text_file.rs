@@ -4,6 +4,8 @@ use std::fs::{self, File};
 use std::io::{self, Read as _};
 use std::path::Path;
 
+use sha2::{Digest, Sha256};
+
 /// The largest file that is read: far beyond any robot or gait, far below the memory of any
 /// machine.
 pub const LARGEST_BYTES: u64 = 16 << 20;
@@ -43,6 +45,21 @@ pub fn read_at_most(path: &Path, largest_bytes: u64) -> io::Result<String> {
 
 fn refused(reason: &str) -> io::Error {
     io::Error::new(io::ErrorKind::InvalidInput, reason)
+}
+
+/// SHA-256 of texts, one after the other with a zero byte between two, hexadecimal.
+pub fn sha256(texts: &[&str]) -> String {
+    let mut hasher = Sha256::new();
+    for (index, text) in texts.iter().enumerate() {
+        if index > 0 {
+            hasher.update([0]);
+        }
+        hasher.update(text.as_bytes());
+    }
+    let digits = |byte: &u8| {
+        [byte >> 4, byte & 0xf].map(|d| char::from(b"0123456789abcdef"[usize::from(d)]))
+    };
+    hasher.finalize().iter().flat_map(digits).collect()
 }
 
 #[cfg(test)]

@@ -1,15 +1,12 @@
 //! The two texts of a robot.
 
-use std::fmt;
 use std::fs::File;
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
-use sha2::{Digest, Sha256};
-
-use prone_files::FileError;
 use prone_files::robot_file::{Name, RobotFile};
 use prone_files::shipped::RobotSource;
+use prone_files::{FileError, text_file};
 
 use super::LoadError;
 
@@ -57,18 +54,7 @@ impl RobotFiles {
 
     /// SHA-256 of both texts, hexadecimal.
     pub fn hash(&self) -> String {
-        let mut hasher = Sha256::new();
-        hasher.update(self.toml.as_bytes());
-        hasher.update([0]);
-        hasher.update(self.mjcf.as_bytes());
-        hasher
-            .finalize()
-            .iter()
-            .fold(String::new(), |mut hex, byte| {
-                use fmt::Write as _;
-                write!(hex, "{byte:02x}").expect("writing to a string does not fail");
-                hex
-            })
+        text_file::sha256(&[&self.toml, &self.mjcf])
     }
 
     pub(super) fn toml_name(&self) -> String {
