@@ -56,8 +56,10 @@ pub(crate) fn run(args: &OptimizeArgs) -> Result<(), Failure> {
         .build()
         .map_err(|error| Failure::Work(anyhow!("cannot start worker threads: {error}")))?;
 
-    let plan = plan(args, &pricing, &forms);
+    let mut plan = plan(args, &pricing, &forms);
     let mut checkpoint = Checkpoint::beside(&args.out, plan.clone());
+    // Not part of what a checkpoint must agree with: a search may be given more.
+    plan["budget"] = json!(budget(args, &pricing));
     let mut search = begin(args, &pricing, &checkpoint)?;
     let started = Instant::now();
     let before = search.evaluations();
@@ -142,7 +144,6 @@ fn plan(args: &OptimizeArgs, pricing: &Pricing, forms: &Parametrisation) -> Valu
         "solver": solver(args).name(),
         "seed": args.seed,
         "runs": args.runs,
-        "budget": budget(args, pricing),
         "name": gait_name(args),
         "confirm_durations_s": args.confirm_durations.iter().map(|d| d.seconds()).collect::<Vec<_>>(),
     })
@@ -169,13 +170,16 @@ fn begin(
     if !args.resume {
         return Ok(fresh());
     }
-    let Some(search) = checkpoint.read()? else {
+    let Some(mut search) = checkpoint.read()? else {
         eprintln!(
             "no checkpoint at {}: beginning anew",
             checkpoint.path().display()
         );
         return Ok(fresh());
     };
+    search
+        .allow(budget(args, pricing))
+        .map_err(Failure::input)?;
     eprintln!("going on after {} evaluations", search.evaluations());
     Ok(search)
 }
@@ -238,7 +242,7 @@ fn found_gait(
             "found by {}, seed {}: least {objective}, source {}",
             solver(args).name(),
             search.best().map_or(args.seed, |(run, _)| run.seed),
-            args.pricing.source
+            Pricing::source_name(&args.pricing.source)
         ),
         ..gait
     })

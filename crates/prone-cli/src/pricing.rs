@@ -105,6 +105,12 @@ impl Pricing {
         }
     }
 
+    /// The source in a word: of a file its name, wherever it is.
+    pub(crate) fn source_name(given: &str) -> &str {
+        let file = Path::new(given).file_name().and_then(|name| name.to_str());
+        file.unwrap_or(given)
+    }
+
     /// Whether gaits are simulated one by one.
     pub(crate) fn is_dynamic(&self) -> bool {
         matches!(self.source, LoadedSource::Dynamics)

@@ -67,7 +67,8 @@ pub(crate) struct OptimizeArgs {
     /// Most seconds of searching in all; what is found by then is kept
     #[arg(long, value_name = "S", value_parser = positive)]
     pub(crate) time_budget: Option<f64>,
-    /// Go on from the checkpoint of an interrupted search, if there is one
+    /// Go on from the checkpoint of an interrupted search, if there is one; --budget may be larger
+    /// than it was
     #[arg(long)]
     pub(crate) resume: bool,
     /// Durations at which the found gait is simulated, s

@@ -73,6 +73,16 @@ pub enum SearchEnd {
     Interrupted,
 }
 
+/// A search cannot take evaluations back.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("the interrupted search has a budget of {earlier} evaluations a run; {budget} are fewer")]
+pub struct SmallerBudget {
+    /// What was asked for.
+    pub budget: u64,
+    /// What the search has.
+    pub earlier: u64,
+}
+
 impl Search {
     /// `runs` runs of a solver with the seeds `seed`, `seed` + 1, …, of at most `budget`
     /// evaluations each. The genetic algorithm ends after its own number of generations as well.
@@ -87,6 +97,28 @@ impl Search {
             budget,
             runs: (0..runs).map(|k| begin(seed.wrapping_add(k))).collect(),
         }
+    }
+
+    /// Allows each run more evaluations: those that ended for want of them go on, to what a search
+    /// with that budget from the start would have found. (Each search of the crate `cmaes` plans for
+    /// the evaluations that are left, so that there the two may differ.)
+    ///
+    /// # Errors
+    /// [`SmallerBudget`] where some have been done that would not be allowed.
+    pub fn allow(&mut self, budget: u64) -> Result<(), SmallerBudget> {
+        if budget < self.budget {
+            return Err(SmallerBudget {
+                budget,
+                earlier: self.budget,
+            });
+        }
+        if budget > self.budget {
+            self.budget = budget;
+            for run in &mut self.runs {
+                run.stopped = run.stopped.filter(|why| *why != StopReason::Evaluations);
+            }
+        }
+        Ok(())
     }
 
     /// Goes on until every run is at its end. `between` sees the search after each generation and
@@ -277,6 +309,21 @@ mod tests {
             }
             assert_eq!(whole, parts, "{solver:?}");
             assert!(whole.evaluations() <= whole.allowance());
+        }
+    }
+
+    #[test]
+    fn a_budget_that_is_raised_later_is_as_good_as_one_from_the_start() {
+        for solver in [Solver::DifferentialEvolution, Solver::Genetic] {
+            let whole = finished(solver);
+            let mut raised = Search::new(solver, 5, 2, 500);
+            raised.proceed(&Bowl::new(), |_| ControlFlow::Continue(()));
+            assert!(raised.evaluations() <= 1000);
+            raised.allow(2000).unwrap();
+            raised.proceed(&Bowl::new(), |_| ControlFlow::Continue(()));
+            assert_eq!(whole, raised, "{solver:?}");
+            let refused = raised.allow(1999).unwrap_err();
+            assert_eq!((refused.budget, refused.earlier), (1999, 2000));
         }
     }
 
