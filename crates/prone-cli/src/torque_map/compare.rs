@@ -95,8 +95,8 @@ fn print_worst(worst: &[WorstRow], out: &mut impl std::io::Write) -> std::io::Re
     )?;
     writeln!(
         out,
-        "{:>7}{:>8}{:>8}  {:<9}{:>9}{:>9}{:>9}  {:<16}{}",
-        "theta3", "theta4", "alpha", "joint", "A", "B", "A - B", "in A", "in B"
+        "{:>7}{:>8}{:>8}  {:<9}{:>9}{:>9}{:>9}  {:<16}in B",
+        "theta3", "theta4", "alpha", "joint", "A", "B", "A - B", "in A"
     )?;
     for row in worst {
         let [a, b] = [row.torques_nm.a, row.torques_nm.b].map(|torques| torque(row, torques));

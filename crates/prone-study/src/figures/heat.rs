@@ -7,6 +7,10 @@ use super::sheet::bar_label;
 use super::style::{Colour, HATCHING, INK, NOTHING, SMALL_SIZE, Stroke, diverging};
 use super::svg::{Anchor, Canvas, Rect, TextStyle};
 
+/// How far an area reaches under the next one: coordinates are rounded, and paper must not show
+/// between the two.
+const OVERLAP: f64 = 0.5;
+
 /// A diverging scale around zero.
 #[derive(Debug, Clone)]
 pub(super) struct HeatScale {
@@ -78,7 +82,7 @@ impl Cells {
         canvas.crisp(|canvas| {
             for (index, value) in self.values.iter().enumerate() {
                 let colour = value.map_or(NOTHING, |value| self.scale.colour(value));
-                canvas.fill(self.cell(index, frame), colour);
+                canvas.fill(self.overlapping(index, frame), colour);
             }
         });
         for (index, value) in self.values.iter().enumerate() {
@@ -88,9 +92,26 @@ impl Cells {
         }
     }
 
+    /// A cell, and a little of those that are drawn after it.
+    fn overlapping(&self, index: usize, frame: Rect) -> Rect {
+        let cell = self.cell(index, frame);
+        let beyond = |last: bool| if last { 0.0 } else { OVERLAP };
+        let right = beyond((index + 1).is_multiple_of(self.columns.max(1)));
+        let up = beyond(index / self.columns.max(1) + 1 == self.rows());
+        Rect {
+            top: cell.top - up,
+            width: cell.width + right,
+            height: cell.height + up,
+            ..cell
+        }
+    }
+
+    fn rows(&self) -> usize {
+        self.values.len().div_ceil(self.columns.max(1)).max(1)
+    }
+
     fn cell(&self, index: usize, frame: Rect) -> Rect {
-        let columns = self.columns.max(1);
-        let rows = self.values.len().div_ceil(columns).max(1);
+        let (columns, rows) = (self.columns.max(1), self.rows());
         let (row, column) = ((index / columns) as f64, (index % columns) as f64);
         let (width, height) = (frame.width / columns as f64, frame.height / rows as f64);
         Rect {

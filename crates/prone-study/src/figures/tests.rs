@@ -1,5 +1,7 @@
 //! What holds for every figure: well-formed, deterministic, complete, whatever the records lack.
 
+use prone::torque_map::{Axis, Grid, JointTorques, Mask, Row, TorqueMap};
+
 use super::*;
 use crate::record::{ChainSample, PullRow};
 
@@ -47,6 +49,29 @@ fn chain(gait: &str) -> ChainRecord {
         gait: gait.to_owned(),
         samples: (0..=10).map(sample).collect(),
     }
+}
+
+/// A map whose torques reach `largest`, N·m, with every fifth row masked.
+fn map(largest: f64) -> TorqueMap {
+    let axis = |low, high, nodes| Axis::new(low, high, nodes).unwrap();
+    let grid = Grid {
+        knee: axis(-0.1, 0.8, 3),
+        hip: axis(-0.5, 0.5, 7),
+        upper_arm: axis(-1.6, -0.5, 5),
+    };
+    let rows = (0..grid.len()).map(|index| {
+        let share = index as f64 / (grid.len() - 1) as f64;
+        if index % 5 == 0 {
+            Row::Masked {
+                mask: Mask::Open,
+                recorded: None,
+            }
+        } else {
+            let torques = [share, -0.5 * share, 0.0, 0.1].map(|torque| largest * torque);
+            Row::Torques(JointTorques::from_array(torques))
+        }
+    });
+    TorqueMap::new(grid, rows.collect()).unwrap()
 }
 
 fn draw(durations_s: &[f64], gaits: &[&str]) -> Vec<Figure> {
@@ -176,7 +201,9 @@ fn every_svg_is_well_formed_and_finite() {
 
 #[test]
 fn no_text_leaves_the_sheet() {
-    for figure in draw(&ALL_S, &["nominal", "optimal", "ours"]) {
+    let mut figures = draw(&ALL_S, &["nominal", "optimal", "ours"]);
+    figures.extend(torque_map_figures(&map(-12.5), &[0, 2]).unwrap());
+    for figure in figures {
         let options = resvg::usvg::Options {
             fontdb: font::database(),
             ..resvg::usvg::Options::default()
@@ -245,4 +272,23 @@ fn numbers_no_axis_can_show_are_named() {
         ..pull("nominal", 5.0)
     };
     assert!(study_figures(&[], &[timeless], &[]).is_err());
+}
+
+#[test]
+fn slices_of_a_map_have_a_panel_per_joint_and_hatch_what_is_masked() {
+    let figures = torque_map_figures(&map(1.2), &[2, 0, 3]).unwrap();
+    assert_eq!(
+        stems(&figures),
+        ["torque-map-theta3+45.84deg", "torque-map-theta3-05.73deg"],
+        "a slice beyond the map is left out"
+    );
+    let svg = &figures[0].svg;
+    assert_eq!(panels(&figures[0]), 4);
+    assert!(svg.contains("joint torque, N·m") && svg.contains("no torques: 7 of 35 rows"));
+    let grey = "fill=\"#e0e0e0\"";
+    assert_eq!(svg.matches(grey).count(), 4 * 7 + 1, "cells, and the key");
+    assert!(!svg.contains("NaN"));
+    let full = torque_map_figures(&map(0.0), &[1]).unwrap();
+    assert!(!full[0].svg.contains("NaN"), "a map of zeros has a scale");
+    assert!(torque_map_figures(&map(1e12), &[0]).is_err());
 }

@@ -163,8 +163,8 @@ mod tests {
         for (step, most, rows) in [(2.5, 15.0, 9975), (2.5, 27.5, 12_600), (5.0, 15.0, 1430)] {
             assert_eq!(NodeGrid::new(step, most).unwrap().grid().len(), rows);
         }
-        let tenths = NodeGrid::new(2.5 / 3.0, 27.5).unwrap();
-        assert_eq!(tenths.grid().knee.len(), 61, "thirds are not exact");
+        let thirds = NodeGrid::new(5.0 / 3.0, 20.0).unwrap();
+        assert_eq!(thirds.grid().knee.len(), 31, "thirds are not exact");
     }
 
     #[test]

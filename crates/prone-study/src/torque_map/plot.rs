@@ -130,3 +130,64 @@ pub fn artefacts(
     artefacts.insert(RUN_FILE.into(), json(&info)?);
     Ok(artefacts)
 }
+
+#[cfg(test)]
+mod tests {
+    use prone::torque_map::{Axis, Grid, JointTorques, Row};
+
+    use super::*;
+
+    fn map() -> TorqueMap {
+        let grid = Grid {
+            knee: Axis::new(-5.0_f64.to_radians(), 45.0_f64.to_radians(), 21).unwrap(),
+            hip: Axis::new(-0.5, 0.5, 3).unwrap(),
+            upper_arm: Axis::new(-1.5, -0.5, 2).unwrap(),
+        };
+        let torques = Row::Torques(JointTorques::from_array([0.1, -0.2, 0.3, 0.0]));
+        TorqueMap::new(grid, vec![torques; grid.len()]).unwrap()
+    }
+
+    #[test]
+    fn slices_are_nodes() {
+        assert_eq!(slices(&map(), &[]).unwrap(), [0, 7, 13, 20]);
+        assert_eq!(slices(&map(), &[45.0, -5.0, 45.0]).unwrap(), [0, 20]);
+        for theta3_deg in [13.0, 47.5, f64::NAN] {
+            assert_eq!(
+                slices(&map(), &[theta3_deg]).unwrap_err().to_string(),
+                format!(
+                    "theta3 = {theta3_deg:?}° is no node of the map: they go from -5.00° to 45.00° by 2.50°"
+                )
+            );
+        }
+    }
+
+    #[test]
+    fn a_result_has_two_files_per_slice_and_says_what_was_drawn() {
+        let file = MapFile {
+            name: "a.csv".to_owned(),
+            comments: vec!["by hand".to_owned()],
+        };
+        let program = Program {
+            version: "0.0.0",
+            commit: "test",
+        };
+        let files = artefacts(&map(), &[0, 2], &file, &program).unwrap();
+        let names: Vec<_> = files.keys().map(String::as_str).collect();
+        assert_eq!(
+            names,
+            [
+                "run.json",
+                "torque-map-theta3+00.00deg.png",
+                "torque-map-theta3+00.00deg.svg",
+                "torque-map-theta3-05.00deg.png",
+                "torque-map-theta3-05.00deg.svg",
+            ]
+        );
+        let run: serde_json::Value = serde_json::from_slice(&files[RUN_FILE]).unwrap();
+        assert_eq!(run["map"], "a.csv");
+        assert_eq!(run["map_comments"][0], "by hand");
+        assert_eq!(run["figures"][1]["title"], "Torque map at θ3 = 0°");
+        let again = artefacts(&map(), &[0, 2], &file, &program).unwrap();
+        assert!(files == again, "the same map gives the same bytes");
+    }
+}
