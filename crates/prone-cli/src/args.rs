@@ -116,7 +116,7 @@ Examples:
   prone gait show my-gait.toml --duration 3 --csv my-gait.csv
   prone gait show optimal --json | jq .clamps")]
 pub(crate) struct GaitShowArgs {
-    /// A gait that ships with prone (nominal, optimal) or a gait file
+    /// A gait that ships with prone (nominal, optimal, least-torque, …) or a gait file
     #[arg(value_name = "GAIT")]
     pub(crate) gait: String,
     /// Duration of the phase, s

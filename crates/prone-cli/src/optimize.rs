@@ -196,7 +196,10 @@ fn hunt_down(
     let mut kept = Ok(());
     let end = hunt.proceed(search, |search| {
         progress.show(search);
-        kept = checkpoint.keep(search);
+        // A budget too small for one generation leaves nothing to keep.
+        if search.best().is_some() {
+            kept = checkpoint.keep(search);
+        }
         let spent = time_budget.is_some_and(|budget| started.elapsed() >= budget);
         if kept.is_err() || spent || interrupt::requested() {
             ControlFlow::Break(())
@@ -210,8 +213,10 @@ fn hunt_down(
         checkpoint.write(search)?;
         return Err(suspended(checkpoint));
     }
-    // The confirmation may still be interrupted.
-    checkpoint.write(search)?;
+    if search.best().is_some() {
+        // The confirmation may still be interrupted.
+        checkpoint.write(search)?;
+    }
     Ok(end)
 }
 

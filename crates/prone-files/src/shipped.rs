@@ -1,4 +1,4 @@
-//! What ships inside the program: one robot and the published gaits.
+//! What ships inside the program: one robot, the published gaits, and gaits that were found.
 
 use prone::gait::Gait;
 
@@ -22,10 +22,29 @@ pub const NAO: RobotSource = RobotSource {
     mjcf: include_str!("../../../robots/nao/robot.xml"),
 };
 
-/// Names and texts of the gaits that ship with the program.
-const GAITS: [(&str, &str); 2] = [
+/// Names and texts of the gaits that ship with the program: the published ones, then the best that
+/// was found for each objective.
+const GAITS: [(&str, &str); 8] = [
     ("nominal", include_str!("../../../gaits/nominal.toml")),
     ("optimal", include_str!("../../../gaits/optimal.toml")),
+    (
+        "least-published",
+        include_str!("../../../gaits/least-published.toml"),
+    ),
+    (
+        "least-torque",
+        include_str!("../../../gaits/least-torque.toml"),
+    ),
+    (
+        "least-torque-spline",
+        include_str!("../../../gaits/least-torque-spline.toml"),
+    ),
+    (
+        "least-weighted-torque",
+        include_str!("../../../gaits/least-weighted-torque.toml"),
+    ),
+    ("least-heat", include_str!("../../../gaits/least-heat.toml")),
+    ("least-peak", include_str!("../../../gaits/least-peak.toml")),
 ];
 
 /// The names that [`gait`] knows.
