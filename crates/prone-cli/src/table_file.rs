@@ -56,6 +56,8 @@ fn replace(path: &Path, bytes: &[u8], mode: u32) -> io::Result<()> {
     if mode != NEW_FILE {
         fs::set_permissions(file.path(), Permissions::from_mode(mode & 0o7777))?;
     }
+    // On disk before it has the name: whoever made it may now remove what it was made from.
+    file.as_file().sync_all()?;
     file.persist(path)?;
     Ok(())
 }

@@ -94,6 +94,11 @@ fn a_killed_build_goes_on_and_its_bytes_are_those_of_an_undisturbed_one() {
         fs::read(&out).unwrap() == fs::read(&whole).unwrap(),
         "other bytes"
     );
+    assert_eq!(
+        summary.replace(&whole.display().to_string(), "FILE"),
+        "FILE: torque map by simulation\n     210 rows\n     210 with torques\n       \
+         0 masked: the chain does not close\n       0 masked: the source had no torques\n"
+    );
     let named = |summary: &str, out: &Path| summary.replace(&out.display().to_string(), "FILE");
     assert_eq!(named(&resumed, &out), named(&summary, &whole));
     assert!(!journal(&out).exists());

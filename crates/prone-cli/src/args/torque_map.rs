@@ -17,9 +17,8 @@ pub(crate) enum TorqueMapCommand {
 /// Where torques come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum SourceArg {
-    /// A rigid body at rest, by moment balance: a second
+    // Without documentation, which would make the help of all options longer.
     Statics,
-    /// A pose held in the engine until nothing changes: minutes
     Simulation,
 }
 
@@ -30,14 +29,15 @@ Examples:
   prone torque-map build --source simulation --theta4-max-deg 15 --out thesis.csv
   prone torque-map build --source statics --step-deg 1.25 --out fine.csv
 
-The grid: theta3 -5..45°, theta4 from -30°, alpha -90..-30°; the step must divide all three. The
-conditions are those of the published table: mapping `original`, fixed arms, regime `table`.
+Statics takes a second, simulation minutes. The grid: theta3 -5..45°, theta4 from -30°, alpha
+-90..-30°; the step must divide all three. The conditions are those of the published table: mapping
+`original`, fixed arms, regime `table`.
 
 Rows are kept in FILE.partial as they are measured. After Ctrl-C, or when the build was killed, the
 same command takes them over; FILE is the same, byte for byte, as that of a build that was not
 stopped, on any number of threads. FILE appears when all is done, and FILE.partial goes.")]
 pub(crate) struct BuildArgs {
-    /// Where torques come from
+    /// A rigid body at rest, by moment balance, or a pose held in the engine until nothing changes
     #[arg(long)]
     pub(crate) source: SourceArg,
     /// The map; made, or replaced in one step

@@ -52,7 +52,7 @@ fn print(
     print_joints(comparison, out)?;
     if let Some(modes) = &comparison.modes {
         let (same, known) = (modes.same, modes.known);
-        writeln!(out, "the same parts carry in {same} of {known} rows")?;
+        writeln!(out, "\nthe same parts carry in {same} of {known} rows")?;
     }
     if !comparison.worst.is_empty() {
         print_worst(&comparison.worst, out)?;
@@ -85,7 +85,7 @@ fn print_joints(comparison: &Comparison, out: &mut impl std::io::Write) -> std::
             joint.joint, joint.rms_nm, joint.median_nm, joint.percentile_90_nm
         )?;
     }
-    writeln!(out)
+    Ok(())
 }
 
 fn print_worst(worst: &[WorstRow], out: &mut impl std::io::Write) -> std::io::Result<()> {

@@ -95,9 +95,9 @@ impl Cells {
     /// A cell, and a little of those that are drawn after it.
     fn overlapping(&self, index: usize, frame: Rect) -> Rect {
         let cell = self.cell(index, frame);
-        let beyond = |last: bool| if last { 0.0 } else { OVERLAP };
-        let right = beyond((index + 1).is_multiple_of(self.columns.max(1)));
-        let up = beyond(index / self.columns.max(1) + 1 == self.rows());
+        let (row, column) = (index / self.columns.max(1), index % self.columns.max(1));
+        let beyond = |place: usize, count: usize| if place + 1 < count { OVERLAP } else { 0.0 };
+        let (right, up) = (beyond(column, self.columns), beyond(row, self.rows()));
         Rect {
             top: cell.top - up,
             width: cell.width + right,

@@ -169,7 +169,7 @@ fn limit_errors_name_row_column_and_value() {
         parse(&short),
         Err(ParseError::Shape { rows: 7, .. })
     ));
-    assert!(parse("").is_err());
+    assert_eq!(parse("# none"), Err(ParseError::Empty));
 }
 
 #[test]
@@ -334,7 +334,7 @@ proptest! {
     }
 }
 
-/// Chain and joint angles of a written row belong together, as in the original's: `KneePitch` is
+/// Chain and joint angles of a written row belong together, as in the original's: KneePitch is
 /// θ3 up to the robot's zero, and the row says by which angles it was made.
 #[test]
 fn identity_written_angles_close_the_chain() {

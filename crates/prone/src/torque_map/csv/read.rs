@@ -53,6 +53,9 @@ pub enum ParseError {
         /// Value of the node, rad.
         expected: f64,
     },
+    /// Nothing but comments.
+    #[error("there are no rows")]
+    Empty,
     /// The rows are too few, or not a full block of θ4 × θ3 × α.
     #[error(
         "{rows} rows are no full grid: theta4 repeats after {hips} rows, theta3 after {knees} values"
@@ -228,11 +231,7 @@ fn finite(numbers: [f64; 4]) -> Option<[f64; 4]> {
 fn grid_of(records: &[Record]) -> Result<Grid, ParseError> {
     let same = |a: f64, b: f64| (a - b).abs() <= EDGE_TOLERANCE;
     let Some(first) = records.first() else {
-        return Err(ParseError::Shape {
-            rows: 0,
-            hips: 0,
-            knees: 0,
-        });
+        return Err(ParseError::Empty);
     };
     let run = |column: usize| {
         records
