@@ -24,7 +24,7 @@ pub const NAO: RobotSource = RobotSource {
 
 /// Names and texts of the gaits that ship with the program: the published ones, then the best that
 /// was found for each objective.
-const GAITS: [(&str, &str); 8] = [
+const GAITS: [(&str, &str); 7] = [
     ("nominal", include_str!("../../../gaits/nominal.toml")),
     ("optimal", include_str!("../../../gaits/optimal.toml")),
     (
@@ -43,7 +43,6 @@ const GAITS: [(&str, &str); 8] = [
         "least-weighted-torque",
         include_str!("../../../gaits/least-weighted-torque.toml"),
     ),
-    ("least-heat", include_str!("../../../gaits/least-heat.toml")),
     ("least-peak", include_str!("../../../gaits/least-peak.toml")),
 ];
 
