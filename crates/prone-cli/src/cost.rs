@@ -12,18 +12,17 @@ use crate::pricing::Pricing;
 
 pub(crate) fn run(args: &CostArgs) -> Result<(), Failure> {
     let gait = crate::gait::find(&args.gait)?;
-    let pricing = Pricing::new(&args.pricing)?;
+    let pricing = Pricing::new(&args.pricing, Some(&gait))?;
     let graded = matches!(pricing.aim, Aim::Graded(_));
     if graded && (gait.mapping, gait.arm) != (pricing.base.mapping, pricing.base.arm) {
         return Err(Failure::Input(anyhow!(
-            "gait {} has mapping {} and arms {}, but {} of --from has {} and {}: name a gait of the same kind there, such as {} itself",
+            "gait {} has mapping {} and arms {}, but {} of --from has {} and {}: leave out --from, or name a gait of the same kind there",
             gait.name,
             gait.mapping.name(),
             gait.arm.name(),
             pricing.base.name,
             pricing.base.mapping.name(),
-            pricing.base.arm.name(),
-            args.gait
+            pricing.base.arm.name()
         )));
     }
     let pricer = pricer::pricer(&pricing.world, &pricing.terms()).map_err(Failure::input)?;

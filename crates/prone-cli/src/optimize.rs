@@ -36,7 +36,7 @@ const COMPARED: [&str; 2] = ["nominal", "optimal"];
 const PNG_SCALE: f32 = 2.0;
 
 pub(crate) fn run(args: &OptimizeArgs) -> Result<(), Failure> {
-    let pricing = Pricing::new(&args.pricing)?;
+    let pricing = Pricing::new(&args.pricing, None)?;
     check_form(args, &pricing)?;
     let pricer = pricer::pricer(&pricing.world, &pricing.terms()).map_err(Failure::input)?;
     let ends = match args.ends {

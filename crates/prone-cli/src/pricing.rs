@@ -24,6 +24,9 @@ const DURATION_S: f64 = 3.0;
 /// what the published optimum asks of the shoulder (206°), rounded down.
 const RATE_DEG_PER_PHASE: f64 = 200.0;
 
+/// Gait about which is searched where none is named.
+const FROM: &str = "nominal";
+
 /// Gait whose body share is the limit where none is asked for.
 const SHARE_OF: &str = "optimal";
 
@@ -49,11 +52,11 @@ enum LoadedSource {
 }
 
 impl Pricing {
-    /// Checks and loads what was typed.
-    pub(crate) fn new(args: &PricingArgs) -> Result<Self, Failure> {
+    /// Checks and loads what was typed; `priced` is the gait to price, where there is one.
+    pub(crate) fn new(args: &PricingArgs, priced: Option<&Gait>) -> Result<Self, Failure> {
         let aim = aim(args)?;
         let source = source(&args.source)?;
-        let base = crate::gait::find(&args.from)?;
+        let base = base(args, priced)?;
         let robot = crate::robot::load(args.robot.as_deref())?;
         let world = World::new(&robot, Regime::TORQUE_STUDY).map_err(Failure::input)?;
         let duration = match args.duration {
@@ -239,6 +242,17 @@ fn aim(args: &PricingArgs) -> Result<Aim, Failure> {
             }
         }
     }))
+}
+
+/// The gait of --from, or a default of the kind of the gait to price.
+fn base(args: &PricingArgs, priced: Option<&Gait>) -> Result<Gait, Failure> {
+    if let Some(name) = &args.from {
+        return crate::gait::find(name);
+    }
+    let nominal = crate::gait::find(FROM)?;
+    let kind = |gait: &Gait| (gait.mapping, gait.arm);
+    let other = priced.filter(|gait| kind(gait) != kind(&nominal));
+    Ok(other.cloned().unwrap_or(nominal))
 }
 
 fn source(given: &str) -> Result<LoadedSource, Failure> {

@@ -48,9 +48,10 @@ pub(crate) struct PricingArgs {
     /// published: how far outside the table's limits an angle may lie, rad [default: 0]
     #[arg(long, value_name = "RAD", value_parser = finite, allow_negative_numbers = true)]
     pub(crate) limit_tolerance_rad: Option<f64>,
-    /// Gait whose mapping, arms and ends of the pull hold: a name or a file
-    #[arg(long, value_name = "GAIT", default_value = "nominal")]
-    pub(crate) from: String,
+    /// Gait whose mapping, arms and ends of the pull hold: a name or a file [default: nominal; to
+    /// price a gait of another mapping or other arms, that gait itself]
+    #[arg(long, value_name = "GAIT")]
+    pub(crate) from: Option<String>,
     /// Robot folder with robot.toml and its model [default: the NAO that ships with prone]
     #[arg(long, value_name = "DIR")]
     pub(crate) robot: Option<PathBuf>,

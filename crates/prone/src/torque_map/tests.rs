@@ -334,7 +334,7 @@ proptest! {
     }
 }
 
-/// Chain and joint angles of a written row belong together, as in the original's: KneePitch is
+/// Chain and joint angles of a written row belong together, as in the original's: `KneePitch` is
 /// θ3 up to the robot's zero, and the row says by which angles it was made.
 #[test]
 fn identity_written_angles_close_the_chain() {
