@@ -13,8 +13,11 @@ fn prone(arguments: &[&str]) -> Output {
         .unwrap()
 }
 
+/// Begun with the signals of a terminal, whatever these tests were begun with: under `nohup` they
+/// are ignored, and stay so.
 fn begun(arguments: &[&str]) -> Child {
-    Command::new(env!("CARGO_BIN_EXE_prone"))
+    Command::new("env")
+        .args(["--default-signal=HUP,INT,TERM", env!("CARGO_BIN_EXE_prone")])
         .args(arguments)
         .stdout(Stdio::null())
         .stderr(Stdio::piped())
