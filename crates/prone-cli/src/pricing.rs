@@ -12,10 +12,10 @@ use prone_files::text_file;
 use prone_sim::{LoadedRobot, Regime, World};
 use prone_study::optimize::objective::Objective;
 use prone_study::optimize::pricer::{self, Aim, Source, Terms};
-use prone_study::optimize::pricing::{ChainRules, Clearance, Share};
+use prone_study::optimize::pricing::{self, ChainRules, Clearance, Share};
 
 use crate::Failure;
-use crate::args::pricing::{ClearanceName, ObjectiveName, PerName, PricingArgs};
+use crate::args::pricing::{ClearanceName, LimitsName, ObjectiveName, PerName, PricingArgs};
 
 /// Duration of a pull where none is asked for, s.
 const DURATION_S: f64 = 3.0;
@@ -74,6 +74,13 @@ impl Pricing {
                 .rate_deg_per_phase
                 .unwrap_or(RATE_DEG_PER_PHASE.to_radians()),
             clearance,
+            stops: match args.limits {
+                Some(LimitsName::None) => None,
+                None | Some(LimitsName::Base) => {
+                    let reach = pricing::reach(world.robot(), world.stops(), &base);
+                    Some(reach.map_err(Failure::input)?)
+                }
+            },
         };
         let mut pricing = Self {
             robot,
@@ -102,7 +109,7 @@ impl Pricing {
             },
             base: &self.base,
             share: self.share,
-            rules: self.rules,
+            rules: self.rules.clone(),
             duration: self.duration,
             body_share: self.body_share,
         }
@@ -155,6 +162,7 @@ impl Pricing {
                     Clearance::Hip(height) => json!({ "hip_mm": height * 1e3 }),
                     Clearance::Body(height) => json!({ "body_mm": height * 1e3 }),
                 },
+                "limits": if self.rules.stops.is_some() { "base" } else { "none" },
                 "body_share_of": share_of,
                 "body_share_percent": share_of.map(|_| self.body_share * 100.0),
                 "regime": self.world.regime().name,
@@ -192,6 +200,7 @@ fn aim(args: &PricingArgs) -> Result<Aim, Failure> {
                 ("--duration", args.duration.is_some()),
                 ("--rate-deg-per-phase", args.rate_deg_per_phase.is_some()),
                 ("--clearance", args.clearance.is_some()),
+                ("--limits", args.limits.is_some()),
                 ("--body-share-of", args.body_share_of.is_some()),
             ],
             "does not go with --objective published, which has rules of its own",

@@ -16,6 +16,7 @@ const NORM: Norm = Norm::SquaredTorque { weights: [1.0; 4] };
 const RULES: ChainRules = ChainRules {
     rate: f64::INFINITY,
     clearance: Clearance::Free,
+    stops: None,
 };
 
 fn main() {

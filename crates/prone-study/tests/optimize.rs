@@ -16,7 +16,7 @@ use prone_sim::{LoadedRobot, Regime, RobotFiles, World};
 use prone_study::optimize::dynamic::{DynamicPricing, DynamicSetup};
 use prone_study::optimize::objective::Objective;
 use prone_study::optimize::pricer;
-use prone_study::optimize::pricing::{ChainRules, Clearance, Pricing, Share};
+use prone_study::optimize::pricing::{self, ChainRules, Clearance, Pricing, Share};
 use prone_study::optimize::published_problem::{self, PublishedProblem};
 use prone_study::optimize::search::{Search, SearchEnd, Solver};
 
@@ -41,6 +41,7 @@ fn setup(world: &World, objective: Objective, duration: PhaseDuration) -> Dynami
         rules: ChainRules {
             rate: 200_f64.to_radians(),
             clearance: Clearance::Free,
+            stops: Some(pricing::reach(world.robot(), world.stops(), &gait("nominal")).unwrap()),
         },
         duration,
         body_share: pricer::body_share(world, &gait("optimal"), duration).unwrap(),

@@ -38,6 +38,10 @@ pub(crate) struct PricingArgs {
     /// [default: none with dynamics, else base]
     #[arg(long, value_name = "RULE", value_parser = clearance)]
     pub(crate) clearance: Option<ClearanceName>,
+    /// How far past its stop a joint may be commanded in the plan: `base` (nowhere further than in
+    /// the gait of --from) or `none` (no rule: it is clamped) [default: base]
+    #[arg(long, value_enum)]
+    pub(crate) limits: Option<LimitsName>,
     /// dynamics: trunk and legs carry no larger share of the weight than in this gait
     /// [default: optimal, or the gait of --from on a robot without a published chain]
     #[arg(long, value_name = "GAIT")]
@@ -77,6 +81,15 @@ pub(crate) enum PerName {
     Phase,
     /// One metre
     Metre,
+}
+
+/// A rule for joint limits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum LimitsName {
+    /// No further past a stop than the base gait
+    Base,
+    /// No rule
+    None,
 }
 
 /// A clearance as typed, m.

@@ -42,7 +42,7 @@ pub struct Trial {
 }
 
 /// What gaits are priced by, whatever simulates them.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct DynamicSetup {
     /// The torque part.
     pub norm: Norm,
@@ -156,8 +156,8 @@ impl DynamicPricing<'_> {
     fn broken(&self, gait: &Gait) -> Violations {
         let DynamicSetup {
             rules, duration, ..
-        } = self.setup;
-        rules.broken(self.world.robot(), &self.mapping, gait, duration)
+        } = &self.setup;
+        rules.broken(self.world.robot(), &self.mapping, gait, *duration)
     }
 
     fn simulated(&self, gait: &Gait, mut violations: Violations) -> Price {

@@ -43,7 +43,7 @@ pub enum Source<'a> {
 }
 
 /// Everything that decides a price.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Terms<'a> {
     /// What is minimised.
     pub aim: Aim,
@@ -180,7 +180,7 @@ fn graded<'a>(
         duration,
         body_share,
         ..
-    } = *terms;
+    } = terms.clone();
     let norm = objective.norm(robot)?;
     Ok(match terms.source {
         Source::Map(map) => Box::new(StaticPricing::new(
@@ -255,6 +255,7 @@ pub fn body_share(world: &World, gait: &Gait, duration: PhaseDuration) -> Result
         rules: ChainRules {
             rate: f64::INFINITY,
             clearance: Clearance::Free,
+            stops: None,
         },
         duration,
         body_share: 1.0,

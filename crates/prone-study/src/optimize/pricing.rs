@@ -3,8 +3,8 @@
 use prone::chain::{ChainAngles, ClosedChain, GaitParameters};
 use prone::cost::graded::{self, Per, Phase, Price, Rules, Violations};
 use prone::gait::{Gait, PhaseDuration};
-use prone::mapping::Mapping;
-use prone::robot::Robot;
+use prone::mapping::{Mapping, MappingError};
+use prone::robot::{Range, Robot};
 
 use crate::gait_sheet;
 
@@ -25,12 +25,52 @@ pub trait Pricing: Sync {
 pub const INTERVALS: usize = 200;
 
 /// Rules for the planned chain.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ChainRules {
     /// Fastest command of ankle, knee, hip and shoulder, rad per phase; infinite for none.
     pub rate: f64,
     /// What stays above the floor.
     pub clearance: Clearance,
+    /// Between what stops each joint of the robot may be commanded, rad; `None` leaves it to the
+    /// gait's own policy, which may be to clamp.
+    pub stops: Option<Vec<Range>>,
+}
+
+/// By how much a joint may pass the stops of [`reach`], rad: the published gaits print five digits
+/// of the same first pose, which is 1e-5 rad in the ankle.
+const STOP_TOLERANCE: f64 = 2e-5;
+
+/// The stops of a world, widened to where a gait commands its joints: what gaits about it can keep.
+///
+/// A gait whose joints stay within the stops widens nothing. One that is clamped somewhere, as the
+/// published ones are in the ankle, may be so in the gaits about it, no further, and nowhere else.
+///
+/// # Errors
+/// [`MappingError`].
+pub fn reach(robot: &Robot, stops: &[Range], gait: &Gait) -> Result<Vec<Range>, MappingError> {
+    let mapping = Mapping::new(robot, gait.mapping, gait.arm)?;
+    let mut reach = stops.to_vec();
+    for sample in samples(gait, INTERVALS) {
+        let Ok(angles) = mapping.chain().close(sample) else {
+            continue;
+        };
+        let Ok(joints) = mapping.joint_angles(robot, &angles) else {
+            continue;
+        };
+        for (range, &angle) in reach.iter_mut().zip(joints.as_slice()) {
+            range.lower = range.lower.min(angle);
+            range.upper = range.upper.max(angle);
+        }
+    }
+    for (range, stop) in reach.iter_mut().zip(stops) {
+        if range.lower < stop.lower {
+            range.lower -= STOP_TOLERANCE;
+        }
+        if range.upper > stop.upper {
+            range.upper += STOP_TOLERANCE;
+        }
+    }
+    Ok(reach)
 }
 
 /// What of the planned robot stays how high.
@@ -77,7 +117,15 @@ impl ChainRules {
             rate: self.rate / duration.seconds(),
         };
         let samples = samples(gait, INTERVALS);
-        graded::violations(chain, phase(&samples, duration), &rules)
+        let mut violations = graded::violations(chain, phase(&samples, duration), &rules);
+        if let Some(stops) = &self.stops {
+            let closed = samples.iter().filter_map(|&at| chain.close(at).ok());
+            // A forearm that cannot point forward is refused when the gait is priced.
+            for joints in closed.filter_map(|at| mapping.joint_angles(robot, &at).ok()) {
+                violations.add_limits(joints.as_slice(), stops);
+            }
+        }
+        violations
     }
 }
 

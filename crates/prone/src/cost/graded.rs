@@ -11,13 +11,15 @@
 //! floor:      depth / l5                   of the lowest joint centre           (4)
 //! torque:     1                            where the source has no answer       (5)
 //! body share: (share − allowed) / (1 − allowed), once a phase                   (6)
+//! limits:     |θ − stop| / (upper − lower stop)  per joint                     (7)
 //! ```
 //!
-//! summed over samples. (1) to (4) are the planned chain's own ([`violations`]) and need no torques.
+//! summed over samples. (1) to (4) are the planned chain's own ([`violations`]) and need no torques;
+//! (7) needs the robot's joints and is added by whoever maps them ([`Violations::add_limits`]).
 //! The torque part is one of (trapezoid rule over equal intervals)
 //!
 //! ```text
-//! ∫ Σ w τ² dt  [N²·m²·s],   max |τ|/τ_rated  [1],   ∫ Σ (τ/τ_nominal)² dt  [s]   (7)
+//! ∫ Σ w τ² dt  [N²·m²·s],   max |τ|/τ_rated  [1],   ∫ Σ (τ/τ_nominal)² dt  [s]   (8)
 //! ```
 //!
 //! per phase, or divided by the metres the phase advances.
@@ -26,7 +28,7 @@ use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 use crate::chain::{ChainAngles, ClosedChain, ClosureError, GaitParameters};
-
+use crate::robot::Range;
 use crate::torque_map::{JointTorques, TorqueGap, TorqueSource};
 
 /// A rule that a gait can break.
@@ -44,6 +46,8 @@ pub enum Rule {
     Rate,
     /// Trunk and legs carry no more than their share of the weight.
     BodyShare,
+    /// No joint is commanded past its stop.
+    Limits,
 }
 
 impl Rule {
@@ -56,6 +60,7 @@ impl Rule {
             Self::Clearance => "clearance",
             Self::Rate => "rate",
             Self::BodyShare => "body-share",
+            Self::Limits => "limits",
         }
     }
 }
@@ -88,6 +93,15 @@ impl Violations {
         entry.worst = entry.worst.max(excess);
     }
 
+    /// Adds (7) for each joint that lies outside its stops; angles and stops are by joint of the
+    /// robot, rad.
+    pub fn add_limits(&mut self, angles: &[f64], stops: &[Range]) {
+        for (&angle, stop) in angles.iter().zip(stops) {
+            let excess = stop.excess(angle).abs() / (stop.upper - stop.lower);
+            self.add(Rule::Limits, excess);
+        }
+    }
+
     /// Sum over all rules; zero exactly for a feasible gait.
     pub fn total(&self) -> f64 {
         self.0
@@ -104,7 +118,7 @@ impl Violations {
 /// What a gait costs and which rules it breaks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Price {
-    /// The torque part (7), over the samples that have torques.
+    /// The torque part (8), over the samples that have torques.
     pub torque: f64,
     /// The rules it breaks.
     pub violations: Violations,
@@ -118,7 +132,7 @@ impl Price {
     }
 }
 
-/// Which torque part of (7); arrays are in the order of [`JointTorques`].
+/// Which torque part of (8); arrays are in the order of [`JointTorques`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Norm {
     /// ∫ Σ w τ² dt.
