@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 use prone::gait::Gait;
 use prone_files::gait_file;
-use prone_sim::{Regime, World};
+use prone_sim::{Regime, World, pull};
 use prone_study::figures::{Scores, search_figures};
 use prone_study::optimize::confirm::{self, ConfirmError, ConfirmPlan, Confirmation};
 use prone_study::optimize::form::{Ends, GaitForm, Parametrisation};
@@ -295,7 +295,7 @@ fn artefacts(
     pricing: &Pricing,
 ) -> Result<Artefacts, Failure> {
     let mut artefacts = Artefacts::new();
-    let header = header(outcome, pricing);
+    let header = header(gait, outcome, pricing);
     artefacts.insert(
         "gait.toml".into(),
         gait_file::write(gait, &header).into_bytes(),
@@ -323,7 +323,7 @@ fn artefacts(
 }
 
 /// How the gait was found and what it does, for whoever reads its file.
-fn header(outcome: &Outcome, pricing: &Pricing) -> String {
+fn header(gait: &Gait, outcome: &Outcome, pricing: &Pricing) -> String {
     let mut lines = vec![format!(
         "Found by prone {} ({}), seed {}, {} evaluations in {} runs, on robot {}.",
         env!("CARGO_PKG_VERSION"),
@@ -352,7 +352,20 @@ fn header(outcome: &Outcome, pricing: &Pricing) -> String {
         format!("{regime}: {gait} cannot be simulated: {reason}.")
     });
     lines.extend(refused);
+    lines.extend(clamps(gait, pricing));
     lines.join("\n")
+}
+
+/// Which joints the gait asks past their stops, where it asks any.
+fn clamps(gait: &Gait, pricing: &Pricing) -> Option<String> {
+    let trajectory = pull::plan(&pricing.world, gait, pricing.duration).ok()?;
+    let joints = &pricing.robot.robot().joints;
+    let clamped = trajectory.clamps().iter().map(|clamp| {
+        let by = clamp.largest.abs().to_degrees();
+        format!("{} by up to {by:.1}°", joints[clamp.joint.0].name)
+    });
+    let clamped: Vec<_> = clamped.collect();
+    (!clamped.is_empty()).then(|| format!("Clamped at its limit: {}.", clamped.join(", ")))
 }
 
 fn sentence(verdict: &confirm::Verdict) -> String {

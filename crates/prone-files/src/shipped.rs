@@ -24,7 +24,7 @@ pub const NAO: RobotSource = RobotSource {
 
 /// Names and texts of the gaits that ship with the program: the published ones, then the best that
 /// was found for each objective.
-const GAITS: [(&str, &str); 7] = [
+const GAITS: [(&str, &str); 8] = [
     ("nominal", include_str!("../../../gaits/nominal.toml")),
     ("optimal", include_str!("../../../gaits/optimal.toml")),
     (
@@ -34,6 +34,10 @@ const GAITS: [(&str, &str); 7] = [
     (
         "least-torque",
         include_str!("../../../gaits/least-torque.toml"),
+    ),
+    (
+        "least-torque-clamped",
+        include_str!("../../../gaits/least-torque-clamped.toml"),
     ),
     (
         "least-torque-spline",

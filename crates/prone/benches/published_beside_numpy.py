@@ -110,6 +110,8 @@ def main():
                "--objective", "published", "--source", path]
     priced = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
     print(f"published optimum: numpy {theirs:.4f}, ours {priced['cost']:.4f}")
+    # Table 3 prints c1 with four digits, which is what the gait file has; numpy takes the c1 that
+    # meets the ends. That is 0.0037 on the recorded table of 2.5°.
     if abs(theirs - priced["cost"]) > 0.01:
         sys.exit("they differ: not the same objective")
     one, many, rust = per_evaluation(table, 1), per_evaluation(table, 200), ours()

@@ -56,7 +56,7 @@ pub(crate) struct OptimizeArgs {
     #[arg(long, value_enum, default_value = "de")]
     pub(crate) solver: SolverName,
     /// Seed of the first run; the others follow
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub(crate) seed: u64,
     /// Independent runs, with the seeds S, S+1, …; the best of all is kept
     #[arg(long, value_name = "R", default_value = "1", value_parser = clap::value_parser!(u64).range(1..=1000))]

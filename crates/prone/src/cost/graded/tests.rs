@@ -122,3 +122,38 @@ proptest! {
         prop_assert!(kept.order(&broken).is_lt());
     }
 }
+
+#[test]
+fn joint_limits_are_graded_by_the_range_that_is_passed() {
+    let stops = [
+        Range {
+            lower: -1.0,
+            upper: 1.0,
+        },
+        Range {
+            lower: 0.0,
+            upper: 0.5,
+        },
+    ];
+    let mut violations = Violations::default();
+    violations.add_limits(&[0.9, 0.5], &stops);
+    assert!(violations.total() == 0.0);
+    violations.add_limits(&[-1.5, 0.6], &stops);
+    let (rule, excess) = violations.iter().next().unwrap();
+    assert_eq!((rule.name(), excess.count), ("limits", 2));
+    // 0.5 of 2 rad, and 0.1 of 0.5 rad.
+    assert!((excess.sum - 0.45).abs() < 1e-12 && (excess.worst - 0.25).abs() < 1e-12);
+}
+
+#[test]
+fn an_angle_that_is_no_number_is_outside() {
+    let mut violations = Violations::default();
+    violations.add_limits(
+        &[f64::NAN],
+        &[Range {
+            lower: -1.0,
+            upper: 1.0,
+        }],
+    );
+    assert!(violations.total() > 1e3);
+}
