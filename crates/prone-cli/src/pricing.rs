@@ -77,7 +77,7 @@ impl Pricing {
             stops: match args.limits {
                 Some(LimitsName::None) => None,
                 None | Some(LimitsName::Base) => {
-                    let reach = pricing::reach(world.robot(), world.stops(), &base);
+                    let reach = pricing::reach(world.robot(), &base);
                     Some(reach.map_err(Failure::input)?)
                 }
             },

@@ -41,7 +41,7 @@ fn setup(world: &World, objective: Objective, duration: PhaseDuration) -> Dynami
         rules: ChainRules {
             rate: 200_f64.to_radians(),
             clearance: Clearance::Free,
-            stops: Some(pricing::reach(world.robot(), world.stops(), &gait("nominal")).unwrap()),
+            stops: Some(pricing::reach(world.robot(), &gait("nominal")).unwrap()),
         },
         duration,
         body_share: pricer::body_share(world, &gait("optimal"), duration).unwrap(),
@@ -121,9 +121,15 @@ fn a_gait_that_breaks_the_rules_ranks_behind_one_that_does_not() {
 fn stops_reach_to_where_the_base_gait_is_clamped() {
     let loaded = nao();
     let world = World::new(&loaded, Regime::TORQUE_STUDY).unwrap();
-    let reach = pricing::reach(world.robot(), world.stops(), &gait("nominal")).unwrap();
+    let reach = pricing::reach(world.robot(), &gait("nominal")).unwrap();
     let mut widened = Vec::new();
-    for ((joint, stop), reach) in world.robot().joints.iter().zip(world.stops()).zip(reach) {
+    for ((joint, stop), reach) in world
+        .robot()
+        .joints
+        .iter()
+        .zip(world.robot().stops())
+        .zip(reach)
+    {
         let by = (stop.lower - reach.lower).max(reach.upper - stop.upper);
         if by > 0.0 {
             widened.push((joint.name.as_str(), by.to_degrees()));

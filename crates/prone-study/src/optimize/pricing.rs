@@ -40,16 +40,18 @@ pub struct ChainRules {
 /// of the same first pose, which is 1e-5 rad in the ankle.
 const STOP_TOLERANCE: f64 = 2e-5;
 
-/// The stops of a world, widened to where a gait commands its joints: what gaits about it can keep.
+/// The maker's stops, widened to where a gait commands its joints: what gaits about it can keep. A
+/// regime may move stops so that no joint leans on them, but nothing is planned to go there.
 ///
 /// A gait whose joints stay within the stops widens nothing. One that is clamped somewhere, as the
 /// published ones are in the ankle, may be so in the gaits about it, no further, and nowhere else.
 ///
 /// # Errors
 /// [`MappingError`].
-pub fn reach(robot: &Robot, stops: &[Range], gait: &Gait) -> Result<Vec<Range>, MappingError> {
+pub fn reach(robot: &Robot, gait: &Gait) -> Result<Vec<Range>, MappingError> {
     let mapping = Mapping::new(robot, gait.mapping, gait.arm)?;
-    let mut reach = stops.to_vec();
+    let stops = robot.stops();
+    let mut reach = stops.clone();
     for sample in samples(gait, INTERVALS) {
         let Ok(angles) = mapping.chain().close(sample) else {
             continue;
@@ -62,7 +64,7 @@ pub fn reach(robot: &Robot, stops: &[Range], gait: &Gait) -> Result<Vec<Range>, 
             range.upper = range.upper.max(angle);
         }
     }
-    for (range, stop) in reach.iter_mut().zip(stops) {
+    for (range, stop) in reach.iter_mut().zip(&stops) {
         if range.lower < stop.lower {
             range.lower -= STOP_TOLERANCE;
         }
