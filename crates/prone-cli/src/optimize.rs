@@ -7,14 +7,15 @@ use std::time::{Duration, Instant};
 use anyhow::anyhow;
 use serde_json::{Value, json};
 
-use prone::gait::Gait;
+use prone::gait::{CheckedTrajectory, Gait};
 use prone_files::gait_file;
-use prone_sim::{Regime, World, pull};
+use prone_sim::{Regime, World};
 use prone_study::figures::{Scores, search_figures};
 use prone_study::optimize::confirm::{self, ConfirmError, ConfirmPlan, Confirmation};
 use prone_study::optimize::form::{Ends, GaitForm, Parametrisation};
 use prone_study::optimize::outcome::{self, Hunt, Outcome};
 use prone_study::optimize::pricer::{self, Aim};
+use prone_study::optimize::pricing::INTERVALS;
 use prone_study::optimize::search::{Search, SearchEnd, Solver};
 use prone_study::output::{self, Artefacts};
 
@@ -38,6 +39,7 @@ const PNG_SCALE: f32 = 2.0;
 pub(crate) fn run(args: &OptimizeArgs) -> Result<(), Failure> {
     let pricing = Pricing::new(&args.pricing, None)?;
     check_form(args, &pricing)?;
+    check_name(args, &pricing)?;
     let pricer = pricer::pricer(&pricing.world, &pricing.terms()).map_err(Failure::input)?;
     let ends = match args.ends {
         EndsName::Fixed => Ends::Fixed,
@@ -108,6 +110,17 @@ fn check_form(args: &OptimizeArgs, pricing: &Pricing) -> Result<(), Failure> {
     if published && (args.gait_form != GaitForm::Cubic || args.ends == EndsName::Free) {
         return Err(Failure::Input(anyhow!(
             "--objective published prices cubics with fixed ends only: leave out --gait-form and --ends"
+        )));
+    }
+    Ok(())
+}
+
+/// The confirmation tells gaits apart by their names.
+fn check_name(args: &OptimizeArgs, pricing: &Pricing) -> Result<(), Failure> {
+    let name = gait_name(args);
+    if name == pricing.base.name || COMPARED.contains(&name.as_str()) {
+        return Err(Failure::Input(anyhow!(
+            "the found gait would be called {name:?}, like one that it is compared with: give it another --name"
         )));
     }
     Ok(())
@@ -358,11 +371,14 @@ fn header(gait: &Gait, outcome: &Outcome, pricing: &Pricing) -> String {
 
 /// Which joints the gait asks past their stops, where it asks any.
 fn clamps(gait: &Gait, pricing: &Pricing) -> Option<String> {
-    let trajectory = pull::plan(&pricing.world, gait, pricing.duration).ok()?;
-    let joints = &pricing.robot.robot().joints;
+    let robot = pricing.robot.robot();
+    // The maker's: a regime may have moved them.
+    let stops = robot.stops();
+    let trajectory =
+        CheckedTrajectory::plan(robot, &stops, gait, pricing.duration, INTERVALS).ok()?;
     let clamped = trajectory.clamps().iter().map(|clamp| {
         let by = clamp.largest.abs().to_degrees();
-        format!("{} by up to {by:.1}°", joints[clamp.joint.0].name)
+        format!("{} by up to {by:.1}°", robot.joints[clamp.joint.0].name)
     });
     let clamped: Vec<_> = clamped.collect();
     (!clamped.is_empty()).then(|| format!("Clamped at its limit: {}.", clamped.join(", ")))

@@ -21,7 +21,7 @@ use crate::args::pricing::{ClearanceName, LimitsName, ObjectiveName, PerName, Pr
 const DURATION_S: f64 = 3.0;
 
 /// Fastest command where none is asked for, degrees per pull: what a search may ask of a joint is
-/// what the published optimum asks of the shoulder (206°), rounded down.
+/// what the published optimum asks of the hip (206°), rounded down.
 const RATE_DEG_PER_PHASE: f64 = 200.0;
 
 /// Gait about which is searched where none is named.

@@ -73,7 +73,7 @@ fn reference_the_published_optimum_over_nominal() {
     for (duration, prototype) in [(3.0, 0.839), (5.0, 0.857)] {
         let (ratio, broken) = ratio(&world, "optimal", Objective::TORQUE, duration);
         assert!((ratio - prototype).abs() < 0.01, "{ratio} at {duration} s");
-        // Its shoulder passes 200° per pull.
+        // Its hip passes 200° per pull.
         assert_eq!(broken, ["rate"]);
     }
 }
@@ -115,8 +115,7 @@ fn a_gait_that_breaks_the_rules_ranks_behind_one_that_does_not() {
 }
 
 /// `AnklePitch` at the start, whose stops differ by a tenth of a degree left and right, and `ElbowRoll`
-/// at the end (docs/gait.md): there and nowhere else a search from the nominal gait may ask for as
-/// much.
+/// at the end (docs/gait.md): those joints and no others may go as far in a search from it.
 #[test]
 fn stops_reach_to_where_the_base_gait_is_clamped() {
     let loaded = nao();

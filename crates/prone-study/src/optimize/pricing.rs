@@ -1,8 +1,8 @@
 //! What it takes to price a gait: a source of torques, and rules that its planned chain keeps.
 
 use prone::chain::{ChainAngles, ClosedChain, GaitParameters};
-use prone::cost::graded::{self, Per, Phase, Price, Rules, Violations};
-use prone::gait::{Gait, PhaseDuration};
+use prone::cost::graded::{self, Per, Phase, Price, Rule, Rules, Violations};
+use prone::gait::{Gait, LimitsPolicy, PhaseDuration};
 use prone::mapping::{Mapping, MappingError};
 use prone::robot::{Range, Robot};
 
@@ -21,7 +21,8 @@ pub trait Pricing: Sync {
 }
 
 /// Intervals in which a phase is held against the rules, as in the published objective twice over:
-/// on smooth curves the steepest of 200 intervals is within 0.1 % of the steepest point.
+/// on smooth curves the steepest of 200 intervals is within 0.1 % of the steepest point in the middle of a phase, and
+/// within 1 % of one at its end.
 pub const INTERVALS: usize = 200;
 
 /// Rules for the planned chain.
@@ -31,8 +32,7 @@ pub struct ChainRules {
     pub rate: f64,
     /// What stays above the floor.
     pub clearance: Clearance,
-    /// Between what stops each joint of the robot may be commanded, rad; `None` leaves it to the
-    /// gait's own policy, which may be to clamp.
+    /// Between what stops each joint of the robot may be commanded, rad; `None` grades no joint.
     pub stops: Option<Vec<Range>>,
 }
 
@@ -43,8 +43,8 @@ const STOP_TOLERANCE: f64 = 2e-5;
 /// The maker's stops, widened to where a gait commands its joints: what gaits about it can keep. A
 /// regime may move stops so that no joint leans on them, but nothing is planned to go there.
 ///
-/// A gait whose joints stay within the stops widens nothing. One that is clamped somewhere, as the
-/// published ones are in the ankle, may be so in the gaits about it, no further, and nowhere else.
+/// A gait whose joints stay within the stops, or must, widens nothing. One that is clamped somewhere, as the
+/// published ones are in the ankle, may be so in the gaits about it: the same joints, no further, at any phase.
 ///
 /// # Errors
 /// [`MappingError`].
@@ -52,6 +52,9 @@ pub fn reach(robot: &Robot, gait: &Gait) -> Result<Vec<Range>, MappingError> {
     let mapping = Mapping::new(robot, gait.mapping, gait.arm)?;
     let stops = robot.stops();
     let mut reach = stops.clone();
+    if gait.limits == LimitsPolicy::Refuse {
+        return Ok(reach);
+    }
     for sample in samples(gait, INTERVALS) {
         let Ok(angles) = mapping.chain().close(sample) else {
             continue;
@@ -121,10 +124,12 @@ impl ChainRules {
         let samples = samples(gait, INTERVALS);
         let mut violations = graded::violations(chain, phase(&samples, duration), &rules);
         if let Some(stops) = &self.stops {
-            let closed = samples.iter().filter_map(|&at| chain.close(at).ok());
-            // A forearm that cannot point forward is refused when the gait is priced.
-            for joints in closed.filter_map(|at| mapping.joint_angles(robot, &at).ok()) {
-                violations.add_limits(joints.as_slice(), stops);
+            for angles in samples.iter().filter_map(|&at| chain.close(at).ok()) {
+                match mapping.joint_angles(robot, &angles) {
+                    Ok(joints) => violations.add_limits(joints.as_slice(), stops),
+                    // The forearm cannot point forward: no robot, no torque.
+                    Err(_) => violations.add(Rule::Torque, 1.0),
+                }
             }
         }
         violations
@@ -168,12 +173,13 @@ impl Share {
         }
     }
 
-    /// What the torque part of a gait is divided by.
+    /// What the torque part of a gait is divided by; one that does not advance costs infinitely
+    /// much per metre.
     pub(super) fn of(self, chain: &ClosedChain, gait: &Gait) -> Per {
         match self {
             Self::Phase => Per::Phase,
             Self::Metre => Per::Metre {
-                advance: advance(chain, gait),
+                advance: advance(chain, gait).max(0.0),
             },
         }
     }

@@ -46,7 +46,7 @@ pub enum Rule {
     Rate,
     /// Trunk and legs carry no more than their share of the weight.
     BodyShare,
-    /// No joint is commanded past its stop.
+    /// No joint is commanded further than it may be.
     Limits,
 }
 

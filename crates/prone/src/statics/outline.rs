@@ -95,7 +95,8 @@ impl Part {
     pub(super) fn reach(&self, direction: DVec3) -> f64 {
         let bulge = match &self.bulge {
             Bulge::Ball(radius) => *radius,
-            Bulge::Ellipsoid(squares) => direction.dot(*squares * direction).sqrt(),
+            // Rounding may leave it below zero on the axis of a flat cap.
+            Bulge::Ellipsoid(squares) => direction.dot(*squares * direction).max(0.0).sqrt(),
         };
         self.centre.dot(direction) + bulge
     }
@@ -106,7 +107,12 @@ impl Part {
             Bulge::Ball(radius) => self.centre + *radius * direction,
             Bulge::Ellipsoid(squares) => {
                 let along = *squares * direction;
-                self.centre + along / direction.dot(along).sqrt().max(f64::MIN_POSITIVE)
+                let square = direction.dot(along);
+                if square > 0.0 {
+                    self.centre + along / square.sqrt()
+                } else {
+                    self.centre
+                }
             }
         }
     }
