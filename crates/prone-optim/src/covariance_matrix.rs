@@ -11,15 +11,21 @@
 //! which is Deb's order only while values differ by less than the weight times the steps of the
 //! violation; the run's best is still chosen by [`Score`](crate::Score).
 //!
-//! One generation of a [`Run`](crate::Run) is one whole search of the crate, from a random mean
-//! to its own termination, with its population doubled from search to search up to
-//! `2^doublings`, then small again. Its inner state cannot be serialised; between searches there
-//! is none but the random numbers, so that a checkpoint stays exact. Points are scored one by one.
+//! A search of the crate begins at a random mean and ends by its own criteria; then another begins,
+//! with the population doubled from search to search up to `2^doublings`, then small again.
+//!
+//! The crate asks for scores one by one, through a closure, and its state cannot be written. But the
+//! state follows from the seed and the scores: so those are kept, and each generation the search is
+//! made anew, told all its scores, and asked for its next points, which are then scored together
+//! like any solver's. That costs microseconds per earlier generation, and makes a checkpoint exact
+//! after every generation.
+
+use std::cell::RefCell;
 
 use cmaes::{CMAESOptions, DVector};
 use serde::{Deserialize, Serialize};
 
-use crate::{BudgetSpent, Evaluator, Interval, Problem, Random, Solver};
+use crate::{BudgetSpent, Evaluator, Interval, Problem, Random, Score, Solver};
 
 /// Parameters of the searches.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -48,12 +54,24 @@ impl Default for CovarianceMatrixOptions {
     }
 }
 
-/// The solver and its state between searches.
+/// The solver and its state between generations.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CovarianceMatrix {
     options: CovarianceMatrixOptions,
     random: Random,
     searches: u64,
+    search: Option<Search>,
+}
+
+/// A search of the crate: how it began, and what it was told.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Search {
+    mean: Vec<f64>,
+    step: f64,
+    population: usize,
+    seed: u64,
+    /// (1) of every point it asked for, in order; whole generations.
+    told: Vec<f64>,
 }
 
 impl CovarianceMatrix {
@@ -63,52 +81,90 @@ impl CovarianceMatrix {
             options,
             random: Random::new(seed),
             searches: 0,
+            search: None,
+        }
+    }
+
+    fn begin(&mut self, variables: usize) -> Search {
+        let doublings = self.searches % (u64::from(self.options.doublings) + 1);
+        self.searches += 1;
+        Search {
+            mean: (0..variables).map(|_| self.random.uniform()).collect(),
+            step: self.options.step,
+            population: self.options.population.max(4) << doublings,
+            seed: self.random.seed(),
+            told: Vec::new(),
         }
     }
 }
 
 impl Solver for CovarianceMatrix {
     fn advance<P: Problem>(&mut self, evaluator: &mut Evaluator<'_, P>) -> Result<(), BudgetSpent> {
-        let options = self.options;
-        let doublings = self.searches % (u64::from(options.doublings) + 1);
-        let population = options.population.max(4) << doublings;
-        // The crate counts between generations and so passes its limit by less than one.
-        let remaining = usize::try_from(evaluator.remaining()).unwrap_or(usize::MAX);
-        let most = remaining
-            .saturating_sub(population)
-            .min(options.evaluations_per_search);
-        if most < population {
-            return Err(BudgetSpent);
-        }
-        self.searches += 1;
-
         let bounds = evaluator.bounds();
-        let mean: Vec<f64> = bounds.iter().map(|_| self.random.uniform()).collect();
-        let mut spent = Ok(());
-        let objective = |shares: &DVector<f64>| {
-            let place = |(interval, &share): (&Interval, &f64)| interval.at(fold(share));
-            let point = bounds.iter().zip(shares.iter()).map(place).collect();
-            match evaluator.evaluate(&[point]).as_deref() {
-                Ok([score]) => options.violation_weight * score.violation() + score.value(),
-                Ok(_) => f64::MAX,
-                Err(error) => {
-                    spent = Err(*error);
-                    f64::MAX
-                }
+        let most = self.options.evaluations_per_search;
+        let running = self.search.take();
+        let running = running.filter(|search| search.told.len() + search.population <= most);
+        let asked = match running {
+            Some(search) => search.ask()?.map(|shares| (search, shares)),
+            None => None,
+        };
+        let (mut search, shares) = match asked {
+            Some(asked) => asked,
+            None => {
+                let search = self.begin(bounds.len());
+                let shares = search.ask()?.ok_or(BudgetSpent)?;
+                (search, shares)
             }
         };
-        let search = CMAESOptions::new(mean, options.step)
-            .population_size(population)
-            .max_function_evals(most)
-            .seed(self.random.seed())
-            .build(objective);
-        // Options that the crate refuses (no variables, a step of zero) leave nothing to search.
-        search.map_err(|_| BudgetSpent)?.run();
-        spent
+        let place = |(interval, &share): (&Interval, &f64)| interval.at(fold(share));
+        let points: Vec<Vec<f64>> = shares
+            .iter()
+            .map(|shares| bounds.iter().zip(shares).map(place).collect())
+            .collect();
+        let scores = evaluator.evaluate(&points)?;
+        let weight = self.options.violation_weight;
+        let penalised = |score: &Score| (weight * score.violation() + score.value()).min(f64::MAX);
+        search.told.extend(scores.iter().map(penalised));
+        self.search = Some(search);
+        Ok(())
     }
 
     fn restarts(&self) -> u64 {
         self.searches.saturating_sub(1)
+    }
+}
+
+impl Search {
+    /// The next generation's points, in the crate's coordinates; `None` where it has ended. Options
+    /// that the crate refuses (no variables, a step of zero) leave nothing to search.
+    fn ask(&self) -> Result<Option<Vec<Vec<f64>>>, BudgetSpent> {
+        let tape = RefCell::new((self.told.iter(), Vec::with_capacity(self.population)));
+        let play = |shares: &DVector<f64>| {
+            let (told, asked) = &mut *tape.borrow_mut();
+            if let Some(&known) = told.next() {
+                return known;
+            }
+            asked.push(shares.iter().copied().collect::<Vec<f64>>());
+            // No number ends the crate's generation; all its points are known by then.
+            if asked.len() < self.population {
+                0.0
+            } else {
+                f64::NAN
+            }
+        };
+        let mut search = CMAESOptions::new(self.mean.clone(), self.step)
+            .population_size(self.population)
+            .seed(self.seed)
+            .build(play)
+            .map_err(|_| BudgetSpent)?;
+        for _ in 0..self.told.len() / self.population {
+            if search.next().is_some() {
+                return Ok(None);
+            }
+        }
+        let _ = search.next();
+        drop(search);
+        Ok(Some(tape.into_inner().1))
     }
 }
 

@@ -27,6 +27,63 @@ fn reference_follows_the_bent_valley() {
     );
 }
 
+/// A search asked generation by generation visits what the crate visits when it runs by itself.
+#[test]
+fn reference_asks_for_what_the_crate_asks_for() {
+    let problem = Rosenbrock(vec![Interval::new(-2.0, 2.0).unwrap(); 3]);
+    let mut solver = CovarianceMatrix::new(CovarianceMatrixOptions::default(), 7);
+    let search = solver.begin(3);
+    let place = |shares: &[f64]| -> Vec<f64> {
+        let bounds = problem.bounds().iter();
+        bounds.zip(shares).map(|(b, s)| b.at(fold(*s))).collect()
+    };
+    let visited = RefCell::new(Vec::new());
+    let objective = |shares: &DVector<f64>| {
+        visited.borrow_mut().push(shares.as_slice().to_vec());
+        problem.evaluate(&place(shares.as_slice())).value()
+    };
+    let mut alone = CMAESOptions::new(search.mean.clone(), search.step)
+        .population_size(search.population)
+        .seed(search.seed)
+        .build(objective)
+        .unwrap();
+    alone.run();
+    drop(alone);
+    let visited = visited.into_inner();
+
+    let mut asked = search;
+    let mut points = Vec::new();
+    while let Some(generation) = asked.ask().unwrap() {
+        for shares in &generation {
+            asked.told.push(problem.evaluate(&place(shares)).value());
+        }
+        points.extend(generation);
+    }
+    assert!(points.len() > 100);
+    assert_eq!(points, visited);
+}
+
+/// A generation is a generation of the crate, so that budgets, checkpoints and records are as fine.
+#[test]
+fn a_generation_is_one_population() {
+    let problem = Rosenbrock(vec![Interval::new(-2.0, 2.0).unwrap(); 4]);
+    let mut run = Run::new(CovarianceMatrix::new(CovarianceMatrixOptions::default(), 3));
+    let mut history = crate::History::default();
+    run.proceed(&problem, &Termination::after(250), &mut history);
+    let evaluations: Vec<_> = history.0.iter().map(|g| g.evaluations).collect();
+    assert_eq!(evaluations, (1..=20).map(|k| 12 * k).collect::<Vec<_>>());
+}
+
+#[test]
+fn nothing_to_search_is_no_endless_search() {
+    let mut run = Run::new(CovarianceMatrix::new(CovarianceMatrixOptions::default(), 3));
+    let reason = run.proceed(&Rosenbrock(Vec::new()), &Termination::after(100), &mut ());
+    assert_eq!(
+        (reason, run.evaluations()),
+        (crate::StopReason::Evaluations, 0)
+    );
+}
+
 #[test]
 fn identity_folding_keeps_the_inside_and_mirrors_the_outside() {
     for (share, folded) in [

@@ -100,8 +100,7 @@ impl Search {
     }
 
     /// Allows each run more evaluations: those that ended for want of them go on, to what a search
-    /// with that budget from the start would have found. (Each search of the crate `cmaes` plans for
-    /// the evaluations that are left, so that there the two may differ.)
+    /// with that budget from the start would have found.
     ///
     /// # Errors
     /// [`SmallerBudget`] where some have been done that would not be allowed.
@@ -314,7 +313,11 @@ mod tests {
 
     #[test]
     fn a_budget_that_is_raised_later_is_as_good_as_one_from_the_start() {
-        for solver in [Solver::DifferentialEvolution, Solver::Genetic] {
+        for solver in [
+            Solver::DifferentialEvolution,
+            Solver::CovarianceMatrix,
+            Solver::Genetic,
+        ] {
             let whole = finished(solver);
             let mut raised = Search::new(solver, 5, 2, 500);
             raised.proceed(&Bowl::new(), |_| ControlFlow::Continue(()));
