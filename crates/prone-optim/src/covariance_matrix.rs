@@ -102,19 +102,18 @@ impl Solver for CovarianceMatrix {
     fn advance<P: Problem>(&mut self, evaluator: &mut Evaluator<'_, P>) -> Result<(), BudgetSpent> {
         let bounds = evaluator.bounds();
         let most = self.options.evaluations_per_search;
-        let running = self.search.take();
-        let running = running.filter(|search| search.told.len() + search.population <= most);
-        let asked = match running {
-            Some(search) => search.ask()?.map(|shares| (search, shares)),
+        let going_on = self.search.take();
+        let going_on = going_on.filter(|search| search.told.len() + search.population <= most);
+        let asked = match &going_on {
+            Some(search) => search.ask()?,
             None => None,
         };
-        let (mut search, shares) = match asked {
-            Some(asked) => asked,
-            None => {
-                let search = self.begin(bounds.len());
-                let shares = search.ask()?.ok_or(BudgetSpent)?;
-                (search, shares)
-            }
+        let (mut search, shares) = if let (Some(search), Some(shares)) = (going_on, asked) {
+            (search, shares)
+        } else {
+            let search = self.begin(bounds.len());
+            let shares = search.ask()?.ok_or(BudgetSpent)?;
+            (search, shares)
         };
         let place = |(interval, &share): (&Interval, &f64)| interval.at(fold(share));
         let points: Vec<Vec<f64>> = shares
