@@ -119,12 +119,29 @@ fn table() -> Vec<String> {
     rows
 }
 
+fn file(lines: &[String]) -> String {
+    lines.join("\n") + "\n"
+}
+
+#[test]
+fn limit_a_file_that_is_cut_in_its_last_number_is_refused() {
+    let whole = file(&table());
+    assert!(parse(&whole).is_ok());
+    for cut in 1..3 {
+        let error = parse(&whole[..whole.len() - cut]).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "line 8 has no end: the file is cut there"
+        );
+    }
+}
+
 #[test]
 fn identity_the_recorded_order_is_read() {
     let mut rows = table();
     rows[0] = "1.8,-2.1,0,0.2,-0.6,-0.5236,0,0,0,0,NaN,NaN,NaN,NaN".to_owned();
     rows[3] = "-1.6,2.0,0.1,-0.2,-0.6,-0.5236,0,0,0,0,7,7,7,7".to_owned();
-    let map = parse(&rows.join("\n")).unwrap();
+    let map = parse(&file(&rows)).unwrap();
     assert_eq!(
         (map.masked(Mask::Missing), map.masked(Mask::Mirrored)),
         (1, 1)
@@ -145,7 +162,7 @@ fn limit_errors_name_row_column_and_value() {
     let broken = |row: usize, from: &str, to: &str| {
         let mut rows = table();
         rows[row] = rows[row].replace(from, to);
-        parse(&rows.join("\n")).unwrap_err().to_string()
+        parse(&file(&rows)).unwrap_err().to_string()
     };
     assert_eq!(
         broken(2, ",-0.6,", ",oops,"),
@@ -164,7 +181,7 @@ fn limit_errors_name_row_column_and_value() {
         broken(6, ",0.1,0.2,-0.6", ",0.05,0.2,-0.6"),
         "line 7, column theta3: 0.05 rad, but a regular grid has 0.10000 there"
     );
-    let short = table()[..7].join("\n");
+    let short = file(&table()[..7]);
     assert!(matches!(
         parse(&short),
         Err(ParseError::Shape { rows: 7, .. })
@@ -176,7 +193,7 @@ fn limit_errors_name_row_column_and_value() {
 fn limit_lines_are_those_of_the_file() {
     let mut lines = vec!["# by hand".to_owned(), "#theta1,theta2".to_owned()];
     lines.extend(table());
-    let commented = |lines: &[String]| parse(&lines.join("\n"));
+    let commented = |lines: &[String]| parse(&file(lines));
     assert_eq!(commented(&lines), commented(&table()));
     lines.insert(5, "# in between".to_owned());
     lines[6] = lines[6].replace("1.8", "x");
@@ -198,7 +215,7 @@ fn limit_a_row_without_torques_says_why() {
     let first = |row: &str| {
         let mut rows = rows.clone();
         row.clone_into(&mut rows[0]);
-        parse_recorded(&rows.join("\n")).map(|recorded| {
+        parse_recorded(&file(&rows)).map(|recorded| {
             let index = recorded.map().grid().recorded_order().next().unwrap();
             (recorded.map().rows()[index], recorded.contacts()[index])
         })

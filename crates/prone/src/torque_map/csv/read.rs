@@ -53,6 +53,12 @@ pub enum ParseError {
         /// Value of the node, rad.
         expected: f64,
     },
+    /// The last line has no end: part of it may be missing.
+    #[error("line {line} has no end: the file is cut there")]
+    Cut {
+        /// The line of the file, from 1.
+        line: usize,
+    },
     /// Nothing but comments.
     #[error("there are no rows")]
     Empty,
@@ -103,6 +109,11 @@ pub fn parse_recorded(text: &str) -> Result<RecordedMap, ParseError> {
         }
     }
     let grid = grid_of(&records)?;
+    if !text.ends_with('\n') {
+        return Err(ParseError::Cut {
+            line: text.lines().count(),
+        });
+    }
     let mut rows = vec![None; grid.len()];
     let mut contacts = vec![None; grid.len()];
     for (index, record) in grid.recorded_order().zip(&records) {
