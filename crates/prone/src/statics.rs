@@ -38,7 +38,8 @@
 //! `load` is the sign of the published recordings, `motor` that of the engine's actuators.
 //!
 //! **The second route** ([`virtual_work`]) knows neither supports' hull nor moments: the motors'
-//! work is what lifts the weight and stretches the squeezed span, `motor_j = ½ ∂(G H + S L)/∂q_j` for a mirrored pair.
+//! work is what lifts the weight and stretches the squeezed span,
+//! `motor_j = ½ ∂(G H + S L)/∂q_j` for a mirrored pair.
 
 mod balance;
 mod half;

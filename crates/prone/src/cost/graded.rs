@@ -118,7 +118,7 @@ impl Violations {
 /// What a gait costs and which rules it breaks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Price {
-    /// The torque part (8), over the samples that have torques.
+    /// The torque part (8); not a number where some sample has no torques.
     pub torque: f64,
     /// The rules it breaks.
     pub violations: Violations,
@@ -235,7 +235,11 @@ pub fn price<Height: Fn(&ChainAngles) -> f64>(
             Err(_) => violations.add(Rule::Torque, 1.0),
         }
     }
-    let torque = norm.of(&torques, phase.interval);
+    let torque = if torques.len() == phase.samples.len() {
+        norm.of(&torques, phase.interval)
+    } else {
+        f64::NAN
+    };
     let torque = match per {
         Per::Phase => torque,
         Per::Metre { advance } => torque / advance,

@@ -157,3 +157,29 @@ fn an_angle_that_is_no_number_is_outside() {
     );
     assert!(violations.total() > 1e3);
 }
+
+/// A sum over the other samples would look like the cost of a cheaper gait.
+#[test]
+fn torque_that_is_not_known_somewhere_is_not_known() {
+    struct Chain;
+    impl TorqueSource for Chain {
+        fn torques(&self, at: GaitParameters) -> Result<JointTorques, TorqueGap> {
+            NAO.close(at).map_err(TorqueGap::Closure)?;
+            Ok(JointTorques::from_array([1.0; 4]))
+        }
+    }
+
+    let mut samples = nominal();
+    samples[50].hip = -3.0;
+    let rules = Rules {
+        clearance: 0.0,
+        height: |_: &ChainAngles| 0.0,
+        rate: f64::INFINITY,
+    };
+    let phase = Phase {
+        samples: &samples,
+        interval: 0.01,
+    };
+    let price = price(&NAO, phase, &Chain, &rules, &SQUARES, Per::Phase);
+    assert!(price.torque.is_nan() && price.violations.total() > 0.0);
+}
