@@ -157,7 +157,7 @@ pub(crate) struct RobotCheckArgs {
 fn seconds(text: &str) -> Result<f64, String> {
     let number = text.trim();
     if number.is_empty() {
-        return Err("there is a comma with no number beside it".to_owned());
+        return Err("a number of seconds is missing".to_owned());
     }
     number
         .parse()

@@ -12,6 +12,7 @@ use serde_json::Value;
 
 use prone_study::optimize::search::Search;
 
+use crate::lock::Lock;
 use crate::{Failure, table_file};
 
 /// Time between two writes at least: a cheap search has thousands of generations a second.
@@ -51,6 +52,11 @@ impl Checkpoint {
 
     pub(crate) fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// Holds the checkpoint against other searches with the same result folder.
+    pub(crate) fn lock(&self) -> Result<Lock, Failure> {
+        Lock::take(&self.path.with_extension("lock"), "search for this folder")
     }
 
     /// The search that was interrupted, `None` if there was none.

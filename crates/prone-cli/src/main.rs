@@ -9,6 +9,7 @@ mod cost;
 mod failure;
 mod gait;
 mod interrupt;
+mod lock;
 mod optimize;
 mod pricing;
 mod progress;

@@ -1,24 +1,25 @@
 //! `prone optimize`.
 
-use std::io::Write as _;
+mod files;
+mod report;
+
 use std::ops::ControlFlow;
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use anyhow::anyhow;
 use serde_json::{Value, json};
 
-use prone::gait::{CheckedTrajectory, Gait};
-use prone_files::gait_file;
+use prone::gait::Gait;
 use prone_sim::{Regime, World};
-use prone_study::figures::{Scores, search_figures};
 use prone_study::optimize::confirm::{self, ConfirmError, ConfirmPlan, Confirmation};
 use prone_study::optimize::form::{Ends, GaitForm, Parametrisation};
-use prone_study::optimize::outcome::{self, Hunt, Outcome};
+use prone_study::optimize::outcome::{self, Hunt};
 use prone_study::optimize::pricer::{self, Aim};
-use prone_study::optimize::pricing::INTERVALS;
 use prone_study::optimize::search::{Search, SearchEnd, Solver};
-use prone_study::output::{self, Artefacts};
+use prone_study::output;
 
+use self::files::pretty;
 use crate::args::optimize::{EndsName, OptimizeArgs, SolverName};
 use crate::checkpoint::Checkpoint;
 use crate::pricing::Pricing;
@@ -32,9 +33,6 @@ const DYNAMIC_BUDGET: u64 = 3_000;
 
 /// The gaits that a found one is compared with, where the robot can follow them.
 const COMPARED: [&str; 2] = ["nominal", "optimal"];
-
-/// Pixels per unit of an SVG figure in its PNG.
-const PNG_SCALE: f32 = 2.0;
 
 pub(crate) fn run(args: &OptimizeArgs) -> Result<(), Failure> {
     let pricing = Pricing::new(&args.pricing, None)?;
@@ -62,6 +60,7 @@ pub(crate) fn run(args: &OptimizeArgs) -> Result<(), Failure> {
     let mut checkpoint = Checkpoint::beside(&args.out, plan.clone());
     // Not part of what a checkpoint must agree with: a search may be given more.
     plan["budget"] = json!(budget(args, &pricing));
+    let _lock = checkpoint.lock()?;
     let mut search = begin(args, &pricing, &checkpoint)?;
     let started = Instant::now();
     let before = search.evaluations();
@@ -71,12 +70,15 @@ pub(crate) fn run(args: &OptimizeArgs) -> Result<(), Failure> {
     let gait = found_gait(args, &hunt, &search, &pricing)?;
     let mut gaits = compared(&pricing);
     gaits.push(gait);
+    // From here on a search that is stopped is kept.
+    let place = checkpoint.path().to_owned();
+    let kept = |failure| match failure {
+        Failure::Stopped => suspended(&place),
+        other => other,
+    };
     let confirmation = pool
         .install(|| confirmed(args, &pricing, &gaits))
-        .map_err(|failure| match failure {
-            Failure::Stopped => suspended(&checkpoint),
-            other => other,
-        })?;
+        .map_err(kept)?;
     let (gait, others) = gaits
         .split_last()
         .map_or((&pricing.base, &[][..]), |(g, o)| (g, o));
@@ -84,7 +86,7 @@ pub(crate) fn run(args: &OptimizeArgs) -> Result<(), Failure> {
     let outcome = outcome::of(&hunt, &search, end, gait, unit, others, &confirmation)
         .map_err(Failure::work)?;
 
-    let mut artefacts = artefacts(&search, gait, &outcome, &confirmation, &pricing)?;
+    let mut artefacts = files::artefacts(&search, gait, &outcome, &confirmation, &pricing)?;
     artefacts.insert("run.json".into(), pretty(&plan)?);
     let timing = json!({
         "wall_s": started.elapsed().as_secs_f64(),
@@ -100,8 +102,9 @@ pub(crate) fn run(args: &OptimizeArgs) -> Result<(), Failure> {
             SearchEnd::Finished => checkpoint.remove(),
             SearchEnd::Interrupted => checkpoint.write(&search),
         }
-    })?;
-    report(args, &outcome, &confirmation)
+    })
+    .map_err(kept)?;
+    report::report(args, &outcome, &confirmation)
 }
 
 /// The published problem is one of six coefficients.
@@ -224,7 +227,7 @@ fn hunt_down(
     kept?;
     if interrupt::requested() {
         checkpoint.write(search)?;
-        return Err(suspended(checkpoint));
+        return Err(suspended(checkpoint.path()));
     }
     if search.best().is_some() {
         // The confirmation may still be interrupted.
@@ -233,10 +236,10 @@ fn hunt_down(
     Ok(end)
 }
 
-fn suspended(checkpoint: &Checkpoint) -> Failure {
+fn suspended(checkpoint: &Path) -> Failure {
     Failure::Paused(format!(
         "the search is kept in {}, and --resume goes on from there",
-        checkpoint.path().display()
+        checkpoint.display()
     ))
 }
 
@@ -298,185 +301,4 @@ fn confirmed(
         ConfirmError::Stopped => Failure::Stopped,
         other => Failure::work(other),
     })
-}
-
-fn artefacts(
-    search: &Search,
-    gait: &Gait,
-    outcome: &Outcome,
-    confirmation: &Confirmation,
-    pricing: &Pricing,
-) -> Result<Artefacts, Failure> {
-    let mut artefacts = Artefacts::new();
-    let header = header(gait, outcome, pricing);
-    artefacts.insert(
-        "gait.toml".into(),
-        gait_file::write(gait, &header).into_bytes(),
-    );
-    artefacts.insert("result.json".into(), pretty(outcome)?);
-    let history = outcome::history_csv(search).map_err(Failure::work)?;
-    artefacts.insert("history.csv".into(), history);
-    let confirmation_csv = outcome::confirmation_csv(confirmation).map_err(Failure::work)?;
-    artefacts.insert("confirmation.csv".into(), confirmation_csv);
-    let scores = match pricing.aim {
-        Aim::Published(_) => Scores::Published,
-        Aim::Graded(_) => Scores::Graded,
-    };
-    let figures = search_figures(search, confirmation, &pricing.objective(), scores)
-        .map_err(Failure::work)?;
-    for figure in figures {
-        let png = figure.png(PNG_SCALE).map_err(Failure::work)?;
-        artefacts.insert(format!("figures/{}.png", figure.stem), png);
-        artefacts.insert(
-            format!("figures/{}.svg", figure.stem),
-            figure.svg.into_bytes(),
-        );
-    }
-    Ok(artefacts)
-}
-
-/// How the gait was found and what it does, for whoever reads its file.
-fn header(gait: &Gait, outcome: &Outcome, pricing: &Pricing) -> String {
-    let mut lines = vec![format!(
-        "Found by prone {} ({}), seed {}, {} evaluations in {} runs, on robot {}.",
-        env!("CARGO_PKG_VERSION"),
-        env!("PRONE_COMMIT"),
-        outcome.seed,
-        outcome.evaluations,
-        outcome.runs.len(),
-        pricing.robot.robot().name
-    )];
-    if let Some(cost) = outcome.price.cost {
-        lines.push(format!(
-            "Cost {cost:.4} ({}), violations {:.4}.",
-            outcome.unit, outcome.price.violations
-        ));
-    }
-    lines.push(
-        "Simulated from its own first pose at several durations, cost over another gait's:".into(),
-    );
-    lines.extend(outcome.verdicts.iter().map(sentence));
-    let refused = outcome.refused.iter().map(|refused| {
-        let confirm::Refusal {
-            regime,
-            gait,
-            reason,
-        } = refused;
-        format!("{regime}: {gait} cannot be simulated: {reason}.")
-    });
-    lines.extend(refused);
-    lines.extend(clamps(gait, pricing));
-    lines.join("\n")
-}
-
-/// Which joints the gait asks past their stops, where it asks any.
-fn clamps(gait: &Gait, pricing: &Pricing) -> Option<String> {
-    let robot = pricing.robot.robot();
-    // The maker's: a regime may have moved them.
-    let stops = robot.stops();
-    let trajectory =
-        CheckedTrajectory::plan(robot, &stops, gait, pricing.duration, INTERVALS).ok()?;
-    let clamped = trajectory.clamps().iter().map(|clamp| {
-        let by = clamp.largest.abs().to_degrees();
-        format!("{} by up to {by:.1}°", robot.joints[clamp.joint.0].name)
-    });
-    let clamped: Vec<_> = clamped.collect();
-    (!clamped.is_empty()).then(|| format!("Clamped at its limit: {}.", clamped.join(", ")))
-}
-
-fn sentence(verdict: &confirm::Verdict) -> String {
-    let confirm::Verdict {
-        regime,
-        against,
-        cheaper_at,
-        of,
-        best_ratio,
-        worst_ratio,
-    } = verdict;
-    if *of == 0 {
-        return format!("{regime}: not compared with {against}.");
-    }
-    format!(
-        "{regime}: {best_ratio:.3} to {worst_ratio:.3} of {against}, cheaper at {cheaper_at} of {of} durations."
-    )
-}
-
-fn pretty(value: &impl serde::Serialize) -> Result<Vec<u8>, Failure> {
-    serde_json::to_vec_pretty(value).map_err(Failure::work)
-}
-
-fn report(
-    args: &OptimizeArgs,
-    outcome: &Outcome,
-    confirmation: &Confirmation,
-) -> Result<(), Failure> {
-    let mut out = std::io::stdout().lock();
-    if args.json {
-        let text = serde_json::to_string_pretty(outcome).map_err(Failure::work)?;
-        writeln!(out, "{text}")?;
-        return Ok(());
-    }
-    let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |v| format!("{v:.4}"));
-    writeln!(
-        out,
-        "{:>8}{:>14}{:>14}{:>12}{:>13}",
-        "seed", "cost", "torque", "violations", "evaluations"
-    )?;
-    for run in &outcome.runs {
-        let price = run.price.as_ref();
-        writeln!(
-            out,
-            "{:>8}{:>14}{:>14}{:>12}{:>13}",
-            run.seed,
-            number(price.and_then(|price| price.cost)),
-            number(price.and_then(|price| price.torque)),
-            number(price.map(|price| price.violations)),
-            run.evaluations
-        )?;
-    }
-    writeln!(
-        out,
-        "\n{}: cost {} ({})",
-        outcome.gait,
-        number(outcome.price.cost),
-        outcome.unit
-    )?;
-    for other in &outcome.compared {
-        writeln!(
-            out,
-            "  {:<10} cost {}, violations {:.4}; torque part found / {}: {}",
-            other.gait,
-            number(other.price.cost),
-            other.price.violations,
-            other.gait,
-            number(other.torque_ratio)
-        )?;
-    }
-    if !outcome.complete {
-        writeln!(out, "  stopped by the time budget; --resume goes on")?;
-    }
-    writeln!(out, "\nconfirmed by simulation, found over other")?;
-    for verdict in &outcome.verdicts {
-        writeln!(out, "  {}", sentence(verdict))?;
-    }
-    for refused in &outcome.refused {
-        writeln!(
-            out,
-            "  {}: {} cannot be simulated: {}",
-            refused.regime, refused.gait, refused.reason
-        )?;
-    }
-    if let Some(base) = outcome.compared.first() {
-        for regime in [Regime::TORQUE_STUDY.name, Regime::LOCOMOTION.name] {
-            if !confirmation.holds(regime, &base.gait) {
-                writeln!(
-                    out,
-                    "  the gain over {} does not hold in {regime}",
-                    base.gait
-                )?;
-            }
-        }
-    }
-    writeln!(out, "\ngait: {}", args.out.join("gait.toml").display())?;
-    Ok(())
 }

@@ -24,6 +24,9 @@ const DURATION_S: f64 = 3.0;
 /// what the published optimum asks of the hip (206°), rounded down.
 const RATE_DEG_PER_PHASE: f64 = 200.0;
 
+/// Largest weight: squares of torques times it are far from overflowing.
+const HEAVIEST: f64 = 1e6;
+
 /// Gait about which is searched where none is named.
 const FROM: &str = "nominal";
 
@@ -67,7 +70,12 @@ impl Pricing {
         let (body_share, share_of) = body_share(args, aim, &source, &world, &base, duration)?;
         let share = match args.per {
             None | Some(PerName::Phase) => Share::Phase,
-            Some(PerName::Metre) => Share::Metre,
+            Some(PerName::Metre) => {
+                for gait in priced.into_iter().chain([&base]) {
+                    pricing::check_advance(world.robot(), gait).map_err(Failure::input)?;
+                }
+                Share::Metre
+            }
         };
         let rules = ChainRules {
             rate: args
@@ -224,12 +232,15 @@ fn aim(args: &PricingArgs) -> Result<Aim, Failure> {
     )?;
     let weights = match args.weights.as_deref() {
         None => [1.0; 4],
-        Some(&[a, k, h, s]) if [a, k, h, s].iter().all(|w| w.is_finite() && *w >= 0.0) => {
+        Some(&[a, k, h, s])
+            if [a, k, h, s].iter().all(|w| (0.0..=HEAVIEST).contains(w))
+                && [a, k, h, s].iter().any(|w| *w > 0.0) =>
+        {
             [a, k, h, s]
         }
         Some(weights) => {
             return Err(Failure::Input(anyhow!(
-                "--weights takes four numbers that are not negative (ankle, knee, hip, shoulder), not {weights:?}"
+                "--weights takes four numbers from 0 to {HEAVIEST}, not all 0 (ankle, knee, hip, shoulder), not {weights:?}"
             )));
         }
     };

@@ -46,7 +46,10 @@ fn result(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     files
 }
 
-/// A search of a few seconds: the statics of each gait, two runs.
+/// Evaluations a run.
+const BUDGET: &str = "2000";
+
+/// A search of a few seconds: the statics of each gait, two runs; the budget comes before the folder.
 const SEARCH: [&str; 14] = [
     "optimize",
     "--objective",
@@ -57,26 +60,27 @@ const SEARCH: [&str; 14] = [
     "3",
     "--runs",
     "2",
-    "--budget",
-    "1500",
     "--confirm-durations",
     "0.5",
+    "--budget",
+    BUDGET,
     "--out",
 ];
 
 #[test]
 fn a_killed_search_resumes_to_the_bytes_of_an_uninterrupted_one() {
+    for solver in ["de", "cma-es", "ga"] {
+        killed_and_resumed(solver);
+    }
+}
+
+fn killed_and_resumed(solver: &str) {
     let home = tempfile::tempdir().unwrap();
     let at = |name: &str| home.path().join(name).display().to_string();
     let (whole, parts) = (at("whole"), at("parts"));
-    let search = |out: &str, more: &[&str]| {
-        let mut arguments = SEARCH.to_vec();
-        arguments.push(out);
-        arguments.extend(more);
-        arguments
-            .iter()
-            .map(|a| (*a).to_owned())
-            .collect::<Vec<_>>()
+    let search = |out: &str, more: &[&str]| -> Vec<String> {
+        let arguments = SEARCH.iter().chain([&out, &"--solver", &solver]);
+        arguments.chain(more).map(|a| (*a).to_owned()).collect()
     };
     let run = |out: &str, more: &[&str]| {
         let arguments = search(out, more);
@@ -84,13 +88,26 @@ fn a_killed_search_resumes_to_the_bytes_of_an_uninterrupted_one() {
     };
     succeeded(&run(&whole, &["--threads", "1"]));
 
+    // A budget that is raised afterwards is as good as one from the start.
     let checkpoint = home.path().join("parts.checkpoint.json");
     let arguments = search(&parts, &["--threads", "2"]);
-    let mut killed = begun(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
+    let arguments: Vec<_> = arguments
+        .iter()
+        .map(|argument| if argument == BUDGET { "1500" } else { argument })
+        .collect();
+    let mut killed = begun(&arguments);
     while !checkpoint.exists() {
         assert!(killed.try_wait().unwrap().is_none(), "it ended too soon");
         std::thread::sleep(Duration::from_millis(5));
     }
+    // Two searches do not share a checkpoint.
+    let second = prone(&arguments);
+    assert_eq!(second.status.code(), Some(2));
+    let message = String::from_utf8(second.stderr).unwrap();
+    assert!(
+        message.contains("another search for this folder"),
+        "{message}"
+    );
     killed.kill().unwrap();
     killed.wait().unwrap();
     assert!(!Path::new(&parts).exists(), "half a result");
@@ -109,13 +126,15 @@ fn a_killed_search_resumes_to_the_bytes_of_an_uninterrupted_one() {
     let message = String::from_utf8(resumed.stderr).unwrap();
     assert!(message.starts_with("going on after "), "{message}");
     assert!(!checkpoint.exists());
+    let kept: Vec<_> = fs::read_dir(home.path()).unwrap().collect();
+    assert_eq!(kept.len(), 2, "{kept:?}");
     let (whole, parts) = (result(Path::new(&whole)), result(Path::new(&parts)));
     assert_eq!(
         whole.keys().collect::<Vec<_>>(),
         parts.keys().collect::<Vec<_>>()
     );
     for (name, bytes) in whole {
-        assert!(bytes == parts[&name], "{name} differs");
+        assert!(bytes == parts[&name], "{solver}: {name} differs");
     }
 }
 
@@ -125,7 +144,7 @@ fn a_stopped_search_says_how_to_go_on() {
     let out = home.path().join("result").display().to_string();
     let checkpoint = home.path().join("result.checkpoint.json");
     let mut arguments = SEARCH.to_vec();
-    arguments[10] = "1000000";
+    arguments[12] = "1000000";
     arguments.push(&out);
     let child = begun(&arguments);
     while !checkpoint.exists() {

@@ -120,12 +120,17 @@ fn gait_form(text: &str) -> Result<GaitForm, String> {
     }
 }
 
+/// A time budget that is none, s: thirty years.
+const LONGEST_S: f64 = 1e9;
+
 fn positive(text: &str) -> Result<f64, String> {
     let seconds = super::seconds(text)?;
-    if seconds > 0.0 && seconds.is_finite() {
+    if seconds > 0.0 && seconds <= LONGEST_S {
         Ok(seconds)
     } else {
-        Err("not a number of seconds greater than zero".to_owned())
+        Err(format!(
+            "not a number of seconds greater than 0, up to {LONGEST_S}"
+        ))
     }
 }
 

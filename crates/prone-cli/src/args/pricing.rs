@@ -21,7 +21,7 @@ pub(crate) struct PricingArgs {
         long,
         value_name = "W,W,W,W",
         value_delimiter = ',',
-        allow_negative_numbers = true
+        allow_hyphen_values = true
     )]
     pub(crate) weights: Option<Vec<f64>>,
     /// torque, heat: per phase, or per metre of planned advance [default: phase]
@@ -47,10 +47,10 @@ pub(crate) struct PricingArgs {
     #[arg(long, value_name = "GAIT")]
     pub(crate) body_share_of: Option<String>,
     /// published: least height of the hip's centre, mm [default: 40]
-    #[arg(long, value_name = "MM", value_parser = finite, allow_negative_numbers = true)]
+    #[arg(long, value_name = "MM", value_parser = not_negative, allow_negative_numbers = true)]
     pub(crate) hip_threshold_mm: Option<f64>,
     /// published: how far outside the table's limits an angle may lie, rad [default: 0]
-    #[arg(long, value_name = "RAD", value_parser = finite, allow_negative_numbers = true)]
+    #[arg(long, value_name = "RAD", value_parser = not_negative, allow_negative_numbers = true)]
     pub(crate) limit_tolerance_rad: Option<f64>,
     /// Gait whose mapping, arms and ends of the pull hold: a name or a file [default: nominal; to
     /// price a gait of another mapping or other arms, that gait itself]
@@ -101,6 +101,9 @@ pub(crate) enum ClearanceName {
     Body(f64),
 }
 
+/// Slowest command that is worth a search, degrees per pull: nothing moves below it.
+const SLOWEST_DEG: f64 = 0.001;
+
 fn finite(text: &str) -> Result<f64, String> {
     let number: f64 = text.trim().parse().map_err(|_| "not a number".to_owned())?;
     if number.is_finite() {
@@ -110,15 +113,24 @@ fn finite(text: &str) -> Result<f64, String> {
     }
 }
 
+fn not_negative(text: &str) -> Result<f64, String> {
+    let number = finite(text)?;
+    if number >= 0.0 {
+        Ok(number)
+    } else {
+        Err("it is negative".to_owned())
+    }
+}
+
 fn rate(text: &str) -> Result<f64, String> {
     if text == "none" {
         return Ok(f64::INFINITY);
     }
     let degrees = finite(text)?;
-    if degrees > 0.0 {
+    if degrees >= SLOWEST_DEG {
         Ok(degrees.to_radians())
     } else {
-        Err("a rate is greater than zero".to_owned())
+        Err(format!("a rate is at least {SLOWEST_DEG}"))
     }
 }
 

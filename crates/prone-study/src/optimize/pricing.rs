@@ -155,6 +155,43 @@ pub(super) fn advance(chain: &ClosedChain, gait: &Gait) -> f64 {
     chain.shoulder_to_elbow * (arm(0.0) - arm(1.0))
 }
 
+/// A gait that has no price per metre.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum AdvanceError {
+    /// Its mapping does not fit the robot.
+    #[error(transparent)]
+    Mapping(#[from] MappingError),
+    /// The ends of its upper arm's curve do not carry the shoulder forward.
+    #[error(
+        "gait {gait} has no price per metre: its shoulder advances {advance_mm:.1} mm in a pull"
+    )]
+    NoAdvance {
+        /// The gait's name.
+        gait: String,
+        /// Planned advance, mm.
+        advance_mm: f64,
+    },
+}
+
+/// Shortest advance that a price is divided by, m.
+const SHORTEST_ADVANCE: f64 = 1e-3;
+
+/// Whether a gait, and with it every one whose upper arm has the same ends, has a price per metre.
+///
+/// # Errors
+/// [`AdvanceError`].
+pub fn check_advance(robot: &Robot, gait: &Gait) -> Result<(), AdvanceError> {
+    let mapping = Mapping::new(robot, gait.mapping, gait.arm)?;
+    let advance = advance(mapping.chain(), gait);
+    if advance >= SHORTEST_ADVANCE {
+        return Ok(());
+    }
+    Err(AdvanceError::NoAdvance {
+        gait: gait.name.clone(),
+        advance_mm: advance * 1e3,
+    })
+}
+
 /// Whether a price is per phase or per metre of planned advance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Share {
@@ -173,13 +210,12 @@ impl Share {
         }
     }
 
-    /// What the torque part of a gait is divided by; one that does not advance costs infinitely
-    /// much per metre.
+    /// What the torque part of a gait is divided by.
     pub(super) fn of(self, chain: &ClosedChain, gait: &Gait) -> Per {
         match self {
             Self::Phase => Per::Phase,
             Self::Metre => Per::Metre {
-                advance: advance(chain, gait).max(0.0),
+                advance: advance(chain, gait),
             },
         }
     }

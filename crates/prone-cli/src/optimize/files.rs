@@ -1,0 +1,107 @@
+//! What a search leaves in its result folder.
+
+use prone::gait::{CheckedTrajectory, Gait};
+use prone_files::gait_file;
+use prone_study::figures::{Scores, search_figures};
+use prone_study::optimize::confirm::{self, Confirmation};
+use prone_study::optimize::outcome::{self, Outcome};
+use prone_study::optimize::pricer::Aim;
+use prone_study::optimize::pricing::INTERVALS;
+use prone_study::optimize::search::Search;
+use prone_study::output::Artefacts;
+
+use super::report::sentence;
+use crate::Failure;
+use crate::pricing::Pricing;
+
+/// Pixels per unit of an SVG figure in its PNG.
+const PNG_SCALE: f32 = 2.0;
+
+/// The gait, the tables, the figures.
+pub(super) fn artefacts(
+    search: &Search,
+    gait: &Gait,
+    outcome: &Outcome,
+    confirmation: &Confirmation,
+    pricing: &Pricing,
+) -> Result<Artefacts, Failure> {
+    let mut artefacts = Artefacts::new();
+    let header = header(gait, outcome, pricing);
+    artefacts.insert(
+        "gait.toml".into(),
+        gait_file::write(gait, &header).into_bytes(),
+    );
+    artefacts.insert("result.json".into(), pretty(outcome)?);
+    let history = outcome::history_csv(search).map_err(Failure::work)?;
+    artefacts.insert("history.csv".into(), history);
+    let confirmation_csv = outcome::confirmation_csv(confirmation).map_err(Failure::work)?;
+    artefacts.insert("confirmation.csv".into(), confirmation_csv);
+    let scores = match pricing.aim {
+        Aim::Published(_) => Scores::Published,
+        Aim::Graded(_) => Scores::Graded,
+    };
+    let figures = search_figures(search, confirmation, &pricing.objective(), scores)
+        .map_err(Failure::work)?;
+    for figure in figures {
+        let png = figure.png(PNG_SCALE).map_err(Failure::work)?;
+        artefacts.insert(format!("figures/{}.png", figure.stem), png);
+        artefacts.insert(
+            format!("figures/{}.svg", figure.stem),
+            figure.svg.into_bytes(),
+        );
+    }
+    Ok(artefacts)
+}
+
+/// How the gait was found and what it does, for whoever reads its file.
+fn header(gait: &Gait, outcome: &Outcome, pricing: &Pricing) -> String {
+    let mut lines = vec![format!(
+        "Found by prone {} ({}), seed {}, {} evaluations in {} runs, on robot {}.",
+        env!("CARGO_PKG_VERSION"),
+        env!("PRONE_COMMIT"),
+        outcome.seed,
+        outcome.evaluations,
+        outcome.runs.len(),
+        pricing.robot.robot().name
+    )];
+    if let Some(cost) = outcome.price.cost {
+        lines.push(format!(
+            "Cost {cost:.4} ({}), violations {:.4}.",
+            outcome.unit, outcome.price.violations
+        ));
+    }
+    lines.push(
+        "Simulated from its own first pose at several durations, cost over another gait's:".into(),
+    );
+    lines.extend(outcome.verdicts.iter().map(sentence));
+    let refused = outcome.refused.iter().map(|refused| {
+        let confirm::Refusal {
+            regime,
+            gait,
+            reason,
+        } = refused;
+        format!("{regime}: {gait} cannot be simulated: {reason}.")
+    });
+    lines.extend(refused);
+    lines.extend(clamps(gait, pricing));
+    lines.join("\n")
+}
+
+/// Which joints the gait asks past their stops, where it asks any.
+fn clamps(gait: &Gait, pricing: &Pricing) -> Option<String> {
+    let robot = pricing.robot.robot();
+    // The maker's: a regime may have moved them.
+    let stops = robot.stops();
+    let trajectory =
+        CheckedTrajectory::plan(robot, &stops, gait, pricing.duration, INTERVALS).ok()?;
+    let clamped = trajectory.clamps().iter().map(|clamp| {
+        let by = clamp.largest.abs().to_degrees();
+        format!("{} by up to {by:.1}°", robot.joints[clamp.joint.0].name)
+    });
+    let clamped: Vec<_> = clamped.collect();
+    (!clamped.is_empty()).then(|| format!("Clamped at its limit: {}.", clamped.join(", ")))
+}
+
+pub(super) fn pretty(value: &impl serde::Serialize) -> Result<Vec<u8>, Failure> {
+    serde_json::to_vec_pretty(value).map_err(Failure::work)
+}
