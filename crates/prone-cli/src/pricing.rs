@@ -12,7 +12,8 @@ use prone_files::text_file;
 use prone_sim::{LoadedRobot, Regime, World};
 use prone_study::optimize::objective::Objective;
 use prone_study::optimize::pricer::{self, Aim, Source, Terms};
-use prone_study::optimize::pricing::{self, ChainRules, Clearance, Share};
+use prone_study::optimize::pricing::{self, Share};
+use prone_study::optimize::rules::{self, ChainRules, Clearance};
 
 use crate::Failure;
 use crate::args::pricing::{ClearanceName, LimitsName, ObjectiveName, PerName, PricingArgs};
@@ -85,8 +86,8 @@ impl Pricing {
             stops: match args.limits {
                 Some(LimitsName::None) => None,
                 None | Some(LimitsName::Base) => {
-                    let reach = pricing::reach(world.robot(), &base);
-                    Some(reach.map_err(Failure::input)?)
+                    let stops = rules::widened_stops(world.robot(), &base);
+                    Some(stops.map_err(Failure::input)?)
                 }
             },
         };

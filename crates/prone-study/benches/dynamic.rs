@@ -9,7 +9,8 @@ use prone::statics::{Stance, StaticTorques, SupportRule};
 use prone_files::shipped;
 use prone_sim::{LoadedRobot, Regime, RobotFiles, World};
 use prone_study::optimize::dynamic::{DynamicPricing, DynamicSetup};
-use prone_study::optimize::pricing::{ChainRules, Clearance, Pricing, Share};
+use prone_study::optimize::pricing::{Pricing, Share};
+use prone_study::optimize::rules::{ChainRules, Clearance};
 use prone_study::optimize::static_pricing::StaticPricing;
 
 const NORM: Norm = Norm::SquaredTorque { weights: [1.0; 4] };

@@ -1,7 +1,7 @@
 //! Searching for better gaits, and proof that they are better.
 //!
 //! [`form`] makes gaits of numbers, [`pricer`] prices them by an [`objective`] on a source of
-//! torques, [`search`] runs an optimiser of `prone-optim` over both, [`confirm`] simulates what it
+//! torques under [`rules`], [`search`] runs an optimiser of `prone-optim` over both, [`confirm`] simulates what it
 //! found beside other gaits, and [`outcome`] is what a result folder holds of all that.
 
 pub mod confirm;
@@ -13,5 +13,6 @@ pub mod pricer;
 pub mod pricing;
 pub mod problem;
 pub mod published_problem;
+pub mod rules;
 pub mod search;
 pub mod static_pricing;

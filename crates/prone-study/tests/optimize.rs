@@ -16,8 +16,9 @@ use prone_sim::{LoadedRobot, Regime, RobotFiles, World};
 use prone_study::optimize::dynamic::{DynamicPricing, DynamicSetup};
 use prone_study::optimize::objective::Objective;
 use prone_study::optimize::pricer;
-use prone_study::optimize::pricing::{self, ChainRules, Clearance, Pricing, Share};
+use prone_study::optimize::pricing::{Pricing, Share};
 use prone_study::optimize::published_problem::{self, PublishedProblem};
+use prone_study::optimize::rules::{self, ChainRules, Clearance};
 use prone_study::optimize::search::{Search, SearchEnd, Solver};
 
 fn nao() -> LoadedRobot {
@@ -41,7 +42,7 @@ fn setup(world: &World, objective: Objective, duration: PhaseDuration) -> Dynami
         rules: ChainRules {
             rate: 200_f64.to_radians(),
             clearance: Clearance::Free,
-            stops: Some(pricing::reach(world.robot(), &gait("nominal")).unwrap()),
+            stops: Some(rules::widened_stops(world.robot(), &gait("nominal")).unwrap()),
         },
         duration,
         body_share: pricer::body_share(world, &gait("optimal"), duration).unwrap(),
@@ -120,31 +121,28 @@ fn a_gait_that_breaks_the_rules_ranks_behind_one_that_does_not() {
 fn stops_reach_to_where_the_base_gait_is_clamped() {
     let loaded = nao();
     let world = World::new(&loaded, Regime::TORQUE_STUDY).unwrap();
-    let reach = pricing::reach(world.robot(), &gait("nominal")).unwrap();
+    let wide = rules::widened_stops(world.robot(), &gait("nominal")).unwrap();
+    let stops = world.robot().stops();
     let mut widened = Vec::new();
-    for ((joint, stop), reach) in world
-        .robot()
-        .joints
-        .iter()
-        .zip(world.robot().stops())
-        .zip(reach)
-    {
-        let by = (stop.lower - reach.lower).max(reach.upper - stop.upper);
-        if by > 0.0 {
-            widened.push((joint.name.as_str(), by.to_degrees()));
+    for ((joint, stop), wide) in world.robot().joints.iter().zip(stops).zip(wide) {
+        let (below, above) = (wide.lower - stop.lower, wide.upper - stop.upper);
+        if below != 0.0 || above != 0.0 {
+            widened.push((joint.name.as_str(), below.to_degrees(), above.to_degrees()));
         }
     }
     println!("{widened:?}");
+    // By how much the lower and the upper stop move, degrees.
     let expected = [
-        ("LAnklePitch", 3.85),
-        ("RAnklePitch", 4.03),
-        ("LElbowRoll", 1.5),
-        ("RElbowRoll", 1.5),
+        ("LAnklePitch", -3.85, 0.0),
+        ("RAnklePitch", -4.03, 0.0),
+        ("LElbowRoll", -1.5, 0.0),
+        ("RElbowRoll", 0.0, 1.5),
     ];
     assert_eq!(widened.len(), expected.len());
-    for ((joint, by), (known, most)) in widened.into_iter().zip(expected) {
+    for ((joint, below, above), (known, lower, upper)) in widened.into_iter().zip(expected) {
         assert_eq!(joint, known);
-        assert!((by - most).abs() < 0.01, "{joint}: {by}");
+        assert!((below - lower).abs() < 0.01, "{joint}: {below}");
+        assert!((above - upper).abs() < 0.01, "{joint}: {above}");
     }
 }
 

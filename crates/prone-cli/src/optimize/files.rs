@@ -6,7 +6,7 @@ use prone_study::figures::{Scores, search_figures};
 use prone_study::optimize::confirm::{self, Confirmation};
 use prone_study::optimize::outcome::{self, Outcome};
 use prone_study::optimize::pricer::Aim;
-use prone_study::optimize::pricing::INTERVALS;
+use prone_study::optimize::rules::INTERVALS;
 use prone_study::optimize::search::Search;
 use prone_study::output::Artefacts;
 

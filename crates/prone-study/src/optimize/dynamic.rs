@@ -28,7 +28,8 @@ use prone_sim::pull::{self, Pull, PullError, Start};
 use prone_sim::regime::CONTROL_STEP;
 use prone_sim::{Placement, Simulation, World};
 
-use super::pricing::{ChainRules, Pricing, Share};
+use super::pricing::{Pricing, Share};
+use super::rules::ChainRules;
 
 /// A gait's price by simulation, and the record it was read from.
 #[derive(Debug, Clone, PartialEq)]

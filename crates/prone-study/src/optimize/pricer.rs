@@ -12,8 +12,9 @@ use prone_sim::World;
 
 use super::dynamic::{DynamicPricing, DynamicSetup, TrialError};
 use super::objective::{NoMotor, Objective};
-use super::pricing::{self, ChainRules, Clearance, Pricing, Share};
+use super::pricing::{Pricing, Share};
 use super::published_problem::{self, PublishedProblem, PublishedProblemError};
+use super::rules::{self, ChainRules, Clearance};
 use super::static_pricing::StaticPricing;
 use crate::torque_map::{NodeGrid, NodeGridError};
 
@@ -236,7 +237,7 @@ const HIP_TOLERANCE: f64 = 1e-5;
 pub fn lowest_hip(world: &World, gait: &Gait) -> Result<Clearance, MappingError> {
     let mapping = Mapping::new(world.robot(), gait.mapping, gait.arm)?;
     let chain = mapping.chain();
-    let heights = pricing::samples(gait, pricing::INTERVALS)
+    let heights = rules::samples(gait, rules::INTERVALS)
         .into_iter()
         .filter_map(|at| chain.close(at).ok())
         .map(|angles| chain.posture(&angles).hip.z());

@@ -6,7 +6,8 @@ use prone::mapping::{Mapping, MappingError};
 use prone::robot::Robot;
 use prone::torque_map::TorqueSource;
 
-use super::pricing::{ChainRules, Pricing, Share, phase, samples};
+use super::pricing::{Pricing, Share};
+use super::rules::{ChainRules, phase, samples};
 
 /// Intervals of a phase, as in the published objective.
 const INTERVALS: usize = 100;
