@@ -22,7 +22,7 @@
 use serde::Deserialize;
 use toml::Spanned;
 
-use prone::gait::{Gait, LimitsPolicy};
+use prone::gait::{Curve, Gait, LimitsPolicy};
 use prone::mapping::{ArmMode, MappingVariant};
 
 use crate::curve_table::{self, CurveTable};
@@ -35,14 +35,7 @@ use crate::error::{FileError, Source};
 pub fn parse(file: &str, text: &str) -> Result<Gait, FileError> {
     let source = Source { file, text };
     let gait: GaitFile = source.parse()?;
-    let name = gait.name.get_ref();
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_".contains(c);
-    if name.is_empty() || !name.chars().all(plain) {
-        return Err(source.error(
-            gait.name.span(),
-            format!("a gait's name is made of letters, digits, - and _ (it becomes part of file names), not {name:?}"),
-        ));
-    }
+    check_name(source, &gait.name)?;
     let curve = |curve: CurveTable| {
         let span = curve.span();
         curve
@@ -50,7 +43,7 @@ pub fn parse(file: &str, text: &str) -> Result<Gait, FileError> {
             .map_err(|error| source.error(span, error))
     };
     Ok(Gait {
-        name: name.clone(),
+        name: gait.name.get_ref().clone(),
         description: gait.description,
         knee: curve(gait.knee)?,
         hip: curve(gait.hip)?,
@@ -61,15 +54,36 @@ pub fn parse(file: &str, text: &str) -> Result<Gait, FileError> {
     })
 }
 
+/// Whether a name may become part of file names.
+pub(crate) fn check_name(source: Source<'_>, name: &Spanned<String>) -> Result<(), FileError> {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_".contains(c);
+    let text = name.get_ref();
+    if text.is_empty() || !text.chars().all(plain) {
+        return Err(source.error(
+            name.span(),
+            format!("a gait's name is made of letters, digits, - and _ (it becomes part of file names), not {text:?}"),
+        ));
+    }
+    Ok(())
+}
+
 /// A gait as the text of a gait file: angles in radians with every digit, so that [`parse`] gives
 /// the same gait. `header` becomes comment lines at the top.
 pub fn write(gait: &Gait, header: &str) -> String {
+    let mut text = write_head(gait, header);
+    for (table, curve) in curves(gait) {
+        text.push_str(&["\n[", table, "]\n", &curve_table::write(curve), "\n"].concat());
+    }
+    text
+}
+
+/// Header, name, description, mapping, arms and limits.
+pub(crate) fn write_head(gait: &Gait, header: &str) -> String {
     let mut text = String::new();
     for line in header.lines() {
         text.push_str(format!("# {line}").trim_end());
         text.push('\n');
     }
-    let quoted = |value: &str| toml::Value::from(value).to_string();
     let limits = match gait.limits {
         LimitsPolicy::Refuse => "refuse",
         LimitsPolicy::Clamp => "clamp",
@@ -83,14 +97,21 @@ pub fn write(gait: &Gait, header: &str) -> String {
     ] {
         text.push_str(&[key, " = ", &quoted(value), "\n"].concat());
     }
-    for (table, curve) in [
+    text
+}
+
+/// The curves by the names of their tables.
+pub(crate) const fn curves(gait: &Gait) -> [(&'static str, &Curve); 3] {
+    [
         ("knee", &gait.knee),
         ("hip", &gait.hip),
         ("upper_arm", &gait.upper_arm),
-    ] {
-        text.push_str(&["\n[", table, "]\n", &curve_table::write(curve), "\n"].concat());
-    }
-    text
+    ]
+}
+
+/// A text as a TOML string.
+pub(crate) fn quoted(text: &str) -> String {
+    toml::Value::from(text).to_string()
 }
 
 #[derive(Debug, Deserialize)]
@@ -112,7 +133,7 @@ struct GaitFile {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-enum MappingName {
+pub(crate) enum MappingName {
     #[default]
     Exact,
     Original,
@@ -120,7 +141,7 @@ enum MappingName {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-enum ArmName {
+pub(crate) enum ArmName {
     #[default]
     FlatForearm,
     Fixed,
@@ -128,7 +149,7 @@ enum ArmName {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-enum LimitsName {
+pub(crate) enum LimitsName {
     #[default]
     Refuse,
     Clamp,

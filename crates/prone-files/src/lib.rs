@@ -5,6 +5,7 @@
 //! with the program is embedded ([`shipped`]).
 
 mod curve_table;
+pub mod cycle_file;
 mod error;
 mod exactly;
 pub mod gait_file;

@@ -1,8 +1,9 @@
 //! What ships inside the program: one robot, the published gaits, and gaits that were found.
 
 use prone::gait::Gait;
+use prone::gait::cycle::Cycle;
 
-use crate::{FileError, gait_file};
+use crate::{FileError, cycle_file, gait_file};
 
 /// A robot's two files, embedded.
 #[derive(Debug, Clone, Copy)]
@@ -49,6 +50,40 @@ const GAITS: [(&str, &str); 8] = [
     ),
     ("least-peak", include_str!("../../../gaits/least-peak.toml")),
 ];
+
+/// Names and texts of the cycles that ship with the program: those with the published poses, then
+/// the lower ones.
+const CYCLES: [(&str, &str); 4] = [
+    (
+        "thesis-nominal",
+        include_str!("../../../gaits/thesis-nominal.toml"),
+    ),
+    (
+        "thesis-optimal",
+        include_str!("../../../gaits/thesis-optimal.toml"),
+    ),
+    ("low-175", include_str!("../../../gaits/low-175.toml")),
+    ("low-165", include_str!("../../../gaits/low-165.toml")),
+];
+
+/// The names that [`cycle`] knows.
+pub fn cycle_names() -> impl Iterator<Item = &'static str> {
+    CYCLES.iter().map(|(name, _)| *name)
+}
+
+/// The text of a shipped cycle's file.
+pub fn cycle_text(name: &str) -> Option<&'static str> {
+    let (_, text) = CYCLES.iter().find(|(known, _)| *known == name)?;
+    Some(text)
+}
+
+/// A shipped cycle by name, `None` for any other name.
+///
+/// # Errors
+/// [`FileError`] if the embedded text does not parse, which a test excludes.
+pub fn cycle(name: &str) -> Option<Result<Cycle, FileError>> {
+    cycle_text(name).map(|text| cycle_file::parse(&format!("gaits/{name}.toml"), text))
+}
 
 /// The names that [`gait`] knows.
 pub fn gait_names() -> impl Iterator<Item = &'static str> {

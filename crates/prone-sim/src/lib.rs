@@ -2,13 +2,14 @@
 //!
 //! [`LoadedRobot`] turns a robot's two files into [`prone::robot::Robot`]; a [`World`] puts it on a floor
 //! under a named contact [`regime`]; a [`Simulation`] steps it with the servo law of the published
-//! study; [`pull`] runs one closed-chain phase and records it; [`camera`] takes pictures on the
+//! study; [`pull`] runs one closed-chain phase and records it, [`crawl`] whole cycles; [`camera`] takes pictures on the
 //! CPU.
 //!
 //! The engine's model is shared, its data belongs to one run: runs on any number of threads give
 //! the same bits.
 
 pub mod camera;
+pub mod crawl;
 mod engine_log;
 mod load;
 pub mod pull;

@@ -19,6 +19,8 @@ pub struct Regime {
     pub effort: Effort,
     /// Which servo gains hold.
     pub servo: Servo,
+    /// Length of one engine step, s; a whole number of them makes a [`CONTROL_STEP`].
+    pub time_step: f64,
 }
 
 /// Which joint stops a regime uses.
@@ -59,6 +61,7 @@ impl Regime {
         stops: Stops::Study,
         effort: Effort::Uniform(30.0),
         servo: Servo::Robot,
+        time_step: TIME_STEP,
     };
 
     /// Contacts that stick, with the maker's limits on: for moving forward.
@@ -69,6 +72,7 @@ impl Regime {
         stops: Stops::Maker,
         effort: Effort::Published,
         servo: Servo::Robot,
+        time_step: TIME_STEP,
     };
 
     /// For settled torques, which match the recorded static table: full friction, but so soft
@@ -80,6 +84,7 @@ impl Regime {
         stops: Stops::Study,
         effort: Effort::Uniform(30.0),
         servo: Servo::Robot,
+        time_step: TIME_STEP,
     };
 
     /// Stiff joints on a slippery floor: the rigid body of [`prone::statics`]. 20 N·m·s/rad times
@@ -91,14 +96,38 @@ impl Regime {
     };
 }
 
-/// Length of one engine step, s. 5 ms settles the same but is wrong in motion; 1 ms changes the
+/// Usual length of one engine step, s. 5 ms settles the same but is wrong in motion; 1 ms changes the
 /// study's costs by about one percent.
 pub const TIME_STEP: f64 = 0.0025;
 
 /// Length of one control step, s: the recordings' commands and torques change every 50 ms.
 pub const CONTROL_STEP: f64 = 0.05;
 
-/// Engine steps in one control step.
+impl Regime {
+    /// The same with another length of the engine's step, s.
+    #[must_use]
+    pub const fn with_time_step(self, time_step: f64) -> Self {
+        Self { time_step, ..self }
+    }
+
+    /// The same with other servo gains.
+    #[must_use]
+    pub const fn with_servo(self, servo: Servo) -> Self {
+        Self { servo, ..self }
+    }
+
+    /// Engine steps in a time, s, at least one.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a time of milliseconds to minutes over a step of a millisecond or more"
+    )]
+    pub fn steps_in(&self, seconds: f64) -> usize {
+        ((seconds / self.time_step).round() as usize).max(1)
+    }
+}
+
+/// Engine steps of the usual length in one control step.
 pub const STEPS_PER_CONTROL: usize = 20;
 
 /// Servo law of the recordings: speed command per position error, 1/s.

@@ -8,11 +8,13 @@ use mujoco_rs::prelude::*;
 use prone::frames::{Ground, Link, Point, Root, Transform};
 use prone::robot::{BodyPoses, ContactGroup, JointAngles, JointId, Robot};
 
-use crate::regime::{SERVO_RATE, SERVO_SPEED, STEPS_PER_CONTROL, TIME_STEP};
+use crate::regime::{CONTROL_STEP, SERVO_RATE, SERVO_SPEED, Servo};
 use crate::world::World;
 
 /// Coordinates of a free root: position and quaternion.
 const FREE_JOINT: usize = 7;
+/// Speeds of a free root: three linear, three angular.
+const FREE_JOINT_SPEEDS: usize = 6;
 
 /// A robot moving in a world. A clone goes on to the same bits as the original.
 #[derive(Debug, Clone)]
@@ -106,7 +108,8 @@ impl<'w> Simulation<'w> {
             actuator_torque: vec![0.0; self.reference.len()],
             contact: [0.0; 4],
         };
-        for _ in 0..STEPS_PER_CONTROL {
+        let steps = self.world.regime().steps_in(CONTROL_STEP);
+        for _ in 0..steps {
             self.step();
             for (sum, torque) in means
                 .actuator_torque
@@ -117,10 +120,9 @@ impl<'w> Simulation<'w> {
             }
             self.add_contacts(&mut means.contact);
         }
-        let steps = STEPS_PER_CONTROL as f64;
         let sums = means.actuator_torque.iter_mut().chain(&mut means.contact);
         for sum in sums {
-            *sum /= steps;
+            *sum /= steps as f64;
         }
         self.check()?;
         Ok(means)
@@ -134,6 +136,56 @@ impl<'w> Simulation<'w> {
         }
         self.data.step();
         self.steps += 1;
+    }
+
+    /// Moves the robot along x so that its foremost point is there, m; before the first step.
+    pub fn place_front_at(&mut self, x: f64) {
+        let poses = self.body_poses();
+        self.data.qpos_mut()[0] += x - self.robot().reach(&poses, DVec3::X);
+        self.data.forward();
+    }
+
+    /// Time since the run began, s.
+    pub fn time(&self) -> f64 {
+        self.steps as f64 * self.world.regime().time_step
+    }
+
+    /// Length of one engine step, s.
+    pub const fn time_step(&self) -> f64 {
+        self.world.regime().time_step
+    }
+
+    /// Whether a whole number of periods, s, has just passed.
+    pub fn steps_are_due(&self, period: f64) -> bool {
+        self.steps
+            .is_multiple_of(self.world.regime().steps_in(period))
+    }
+
+    /// Normal force of the ground now by [`ContactGroup::ALL`], both sides together, N.
+    pub fn ground_contact(&self) -> [f64; 4] {
+        let mut forces = [0.0; 4];
+        self.add_contacts(&mut forces);
+        forces
+    }
+
+    /// **Actuator torque** of each joint about its axis in the last step, N·m.
+    pub fn actuator_torque(&self) -> &[f64] {
+        self.data.actuator_force()
+    }
+
+    /// Joint speeds now, rad/s.
+    pub fn joint_speeds(&self) -> &[f64] {
+        &self.data.qvel()[FREE_JOINT_SPEEDS..]
+    }
+
+    /// **Demanded torque**: what a joint's servo asks for now, N·m, before the effort limit cuts
+    /// it.
+    pub fn demanded_torque(&self, joint: JointId) -> f64 {
+        let gain = match self.world.regime().servo {
+            Servo::Robot => self.robot().joints[joint.0].servo_gain,
+            Servo::Uniform(gain) => gain,
+        };
+        gain * (self.data.ctrl()[joint.0] - self.joint_speeds()[joint.0])
     }
 
     /// Joint angles now, rad.
@@ -202,7 +254,8 @@ impl<'w> Simulation<'w> {
         }
     }
 
-    fn check(&self) -> Result<(), SimulationError> {
+    /// Whether position and speed still are numbers that the engine accepts.
+    pub(crate) fn check(&self) -> Result<(), SimulationError> {
         let warned = [
             MjtWarning::mjWARN_BADQPOS,
             MjtWarning::mjWARN_BADQVEL,
@@ -212,7 +265,7 @@ impl<'w> Simulation<'w> {
         .any(|&warning| self.data.warning()[warning as usize].number > 0);
         if warned {
             return Err(SimulationError::Diverged {
-                time_s: self.steps as f64 * TIME_STEP,
+                time_s: self.time(),
             });
         }
         Ok(())

@@ -135,7 +135,7 @@ fn compile(loaded: &LoadedRobot, regime: Regime, stops: &[Range]) -> Result<MjMo
 /// All that the model's `<option>` could say, replaced.
 fn options(regime: Regime) -> MjOption {
     MjOption {
-        timestep: regime::TIME_STEP,
+        timestep: regime.time_step,
         gravity: [0.0, 0.0, -GRAVITY],
         integrator: MjtIntegrator::mjINT_IMPLICITFAST as i32,
         solver: MjtSolver::mjSOL_NEWTON as i32,

@@ -1,10 +1,12 @@
-//! Gaits: how the three chain angles move while toes and elbows are planted.
+//! Gaits: how the three chain angles move while toes and elbows are planted, and the whole cycles
+//! around them ([`cycle`]).
 //!
 //! A [`Gait`] is three [`Curve`]s over the phase s = t / duration ∈ [0, 1], the mapping it was
 //! made for and what happens at a joint's limit. [`CheckedTrajectory::plan`] turns it into joint
 //! angles that a robot may follow; nothing else may be sent to one.
 
 mod curve;
+pub mod cycle;
 mod trajectory;
 
 pub use curve::{Curve, CurveError, CurveForm};

@@ -3,8 +3,8 @@
 //! Seen from the side, a prone humanoid with toes and elbows planted is a closed five-link
 //! chain. This crate holds that chain ([`chain`]), the curves that steer it ([`gait`]), the way
 //! from chain angles to a robot's joints ([`mapping`]), the robot as data ([`robot`]), the torques
-//! that hold it still ([`statics`]) or that a table knows ([`torque_map`]), and what a crawl costs
-//! ([`cost`]).
+//! that hold it still ([`statics`]) or that a table knows ([`torque_map`]), what a crawl costs
+//! ([`cost`]) and how it keeps its line ([`steering`]).
 //!
 //! It reads no file, no clock and no random number, and knows no particular robot: files are
 //! read by `prone-files`, the robot's shape comes from its MJCF through `prone-sim`.
@@ -19,4 +19,5 @@ pub mod gait;
 pub mod mapping;
 pub mod robot;
 pub mod statics;
+pub mod steering;
 pub mod torque_map;

@@ -91,9 +91,18 @@ struct Side {
     geometry: SideGeometry,
     /// θ2⁰ as the variant has it.
     ankle_zero: f64,
+    /// How far the upper arm is spread outwards.
+    outward: f64,
     /// Shoulder roll joint angle.
     roll: f64,
     /// Zero angle of the upper arm at that roll, θ5⁰.
+    shoulder_zero: f64,
+}
+
+/// An upper arm's roll, and the zero angle θ5⁰ that goes with it, rad.
+#[derive(Debug, Clone, Copy)]
+struct Spread {
+    roll: f64,
     shoulder_zero: f64,
 }
 
@@ -179,6 +188,7 @@ impl Mapping {
             let outward = fixed.map_or(outward, |fixed| fixed.shoulder_roll.abs());
             Side {
                 ankle_zero: published.map_or(geometry.zero_angles[0], |p| -p.ankle_offset),
+                outward,
                 roll: geometry.outward_sign * outward,
                 shoulder_zero: geometry.upper_arm(outward).1 - geometry.trunk_zero,
                 geometry,
@@ -206,13 +216,35 @@ impl Mapping {
         robot: &Robot,
         chain: &ChainAngles,
     ) -> Result<JointAngles, MappingError> {
-        let mut joints = self.limb_angles(robot, chain);
-        for (index, (side, layout)) in self.sides.iter().zip(robot.chain.sides()).enumerate() {
+        self.spread_joint_angles(robot, chain, [0.0; 2])
+    }
+
+    /// [`Mapping::joint_angles`] with the left and the right arm spread further outwards than the
+    /// mapping has them, rad; a steered crawl spreads one and draws in the other.
+    ///
+    /// The planar chain stays as it is, so that a spread arm plants its elbow a little nearer.
+    ///
+    /// # Errors
+    /// [`MappingError::ForearmOutOfReach`].
+    pub fn spread_joint_angles(
+        &self,
+        robot: &Robot,
+        chain: &ChainAngles,
+        further: [f64; 2],
+    ) -> Result<JointAngles, MappingError> {
+        let spread = [0, 1].map(|index| self.sides[index].spread(further[index]));
+        let mut joints = self.limb_angles(robot, chain, &spread);
+        for (index, layout) in robot.chain.sides().into_iter().enumerate() {
             let forearm = if let Some(fixed) = self.fixed_forearm {
                 fixed[index]
             } else {
                 let ranges = layout.forearm.map(|id| robot.joints[id.0].range);
-                side.flat_forearm(chain.trunk(), joints[layout.shoulder], ranges)?
+                self.sides[index].flat_forearm(
+                    chain.trunk(),
+                    joints[layout.shoulder],
+                    spread[index].roll,
+                    ranges,
+                )?
             };
             for (id, angle) in layout.forearm.into_iter().zip(forearm) {
                 joints[id] = angle;
@@ -223,18 +255,25 @@ impl Mapping {
 
     /// Equations (1) and (2) and the roll, in (−π, π]; all other joints, the forearms' included,
     /// at zero.
-    fn limb_angles(&self, robot: &Robot, chain: &ChainAngles) -> JointAngles {
+    fn limb_angles(&self, robot: &Robot, chain: &ChainAngles, spread: &[Spread; 2]) -> JointAngles {
         let mut joints = JointAngles::zero(robot);
-        for (side, layout) in self.sides.iter().zip(robot.chain.sides()) {
+        let sides = self.sides.iter().zip(spread).zip(robot.chain.sides());
+        for ((side, spread), layout) in sides {
             let [_, zero_knee, zero_hip] = side.geometry.zero_angles;
             let sign = side.geometry.pitch_signs;
             joints[layout.ankle] = wrap(sign[0] * (chain.ankle - side.ankle_zero));
             joints[layout.knee] = wrap(sign[1] * (chain.knee - zero_knee));
             joints[layout.hip] = wrap(sign[2] * (chain.hip - zero_hip));
-            joints[layout.shoulder] = wrap(-sign[3] * (chain.shoulder - side.shoulder_zero));
-            joints[layout.shoulder_roll] = side.roll;
+            joints[layout.shoulder] = wrap(-sign[3] * (chain.shoulder - spread.shoulder_zero));
+            joints[layout.shoulder_roll] = spread.roll;
         }
         joints
+    }
+
+    /// The same with the mapping's own roll.
+    fn unspread_limb_angles(&self, robot: &Robot, chain: &ChainAngles) -> JointAngles {
+        let spread = [0, 1].map(|index| self.sides[index].spread(0.0));
+        self.limb_angles(robot, chain, &spread)
     }
 
     /// Chain angles of the left side's joints: the inverse of [`Mapping::joint_angles`].
@@ -277,18 +316,35 @@ impl Mapping {
 }
 
 impl Side {
-    /// Equation (3) for a trunk angle and a shoulder joint angle, rad.
+    /// The arm spread further outwards, rad.
+    fn spread(&self, further: f64) -> Spread {
+        // Compared, not subtracted: most gaits spread nothing, and the geometry is not asked then.
+        if further == 0.0 {
+            return Spread {
+                roll: self.roll,
+                shoulder_zero: self.shoulder_zero,
+            };
+        }
+        let outward = self.outward + further;
+        Spread {
+            roll: self.geometry.outward_sign * outward,
+            shoulder_zero: self.geometry.upper_arm(outward).1 - self.geometry.trunk_zero,
+        }
+    }
+
+    /// Equation (3) for a trunk angle, a shoulder joint angle and a shoulder roll, rad.
     fn flat_forearm(
         &self,
         trunk: f64,
         shoulder: f64,
+        roll: f64,
         ranges: [Range; 2],
     ) -> Result<[f64; 2], MappingError> {
         let geometry = &self.geometry;
         let root_pitch = geometry.trunk_zero - trunk;
         let forward_in_root = DQuat::from_rotation_y(-root_pitch) * DVec3::X;
         let arm = DQuat::from_axis_angle(geometry.shoulder_axis, shoulder)
-            * DQuat::from_axis_angle(geometry.roll_axis, self.roll);
+            * DQuat::from_axis_angle(geometry.roll_axis, roll);
         let target = arm.inverse() * forward_in_root;
         forearm::point(geometry.forearm_axes, geometry.forearm_zero, target, ranges)
     }

@@ -4,11 +4,13 @@
 //! `robot.toml`. The value is immutable once loaded; algorithms are functions over `&Robot`.
 
 mod kinematics;
+mod mirror;
 mod shape;
 #[cfg(test)]
 pub(crate) mod testing;
 
 pub use kinematics::BodyPoses;
+pub use mirror::{Mirror, Twin};
 pub use shape::{Shape, Solid};
 
 use std::collections::BTreeMap;
@@ -231,6 +233,17 @@ impl JointAngles {
     /// The angles, rad.
     pub fn as_slice(&self) -> &[f64] {
         &self.0
+    }
+
+    /// The angles a share of the way towards others, joint by joint: 0 here, 1 there.
+    #[must_use]
+    pub fn towards(&self, other: &Self, share: f64) -> Self {
+        let pairs = self.0.iter().zip(&other.0);
+        Self(
+            pairs
+                .map(|(here, there)| here + share * (there - here))
+                .collect(),
+        )
     }
 }
 

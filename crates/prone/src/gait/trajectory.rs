@@ -58,6 +58,15 @@ pub struct Sample {
     pub joints: JointAngles,
 }
 
+/// What moves beside the chain at one phase.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Company {
+    /// How much further than the mapping has them the arms are spread, rad: left, right.
+    pub(super) spread: [f64; 2],
+    /// Joints that the chain does not command, rad.
+    pub(super) joints: Vec<(JointId, f64)>,
+}
+
 /// A joint that a gait with [`LimitsPolicy::Clamp`] stopped at its limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Clamp {
@@ -165,6 +174,22 @@ impl CheckedTrajectory {
         duration: PhaseDuration,
         intervals: usize,
     ) -> Result<Self, TrajectoryError> {
+        let alone = |_| Company::default();
+        Self::plan_in_company(robot, stops, gait, duration, intervals, alone)
+    }
+
+    /// [`CheckedTrajectory::plan`] with what else moves at each phase.
+    ///
+    /// # Errors
+    /// [`TrajectoryError`], naming gait, sample, joint and amount.
+    pub(super) fn plan_in_company(
+        robot: &Robot,
+        stops: &[Range],
+        gait: &Gait,
+        duration: PhaseDuration,
+        intervals: usize,
+        company: impl Fn(f64) -> Company,
+    ) -> Result<Self, TrajectoryError> {
         let mapping = Mapping::new(robot, gait.mapping, gait.arm)?;
         let intervals = intervals.max(1);
         let mut samples = Vec::with_capacity(intervals + 1);
@@ -188,15 +213,18 @@ impl CheckedTrajectory {
                     depth_mm: -height * 1e3,
                 });
             }
-            let mut joints =
-                mapping
-                    .joint_angles(robot, &chain)
-                    .map_err(|source| TrajectoryError::Forearm {
-                        gait: gait.name.clone(),
-                        sample,
-                        s,
-                        source,
-                    })?;
+            let company = company(s);
+            let mut joints = mapping
+                .spread_joint_angles(robot, &chain, company.spread)
+                .map_err(|source| TrajectoryError::Forearm {
+                    gait: gait.name.clone(),
+                    sample,
+                    s,
+                    source,
+                })?;
+            for (id, angle) in company.joints {
+                joints[id] = angle;
+            }
             for (index, (joint, stop)) in robot.joints.iter().zip(stops).enumerate() {
                 let id = JointId(index);
                 let angle = joints[id];
@@ -244,6 +272,23 @@ impl CheckedTrajectory {
         &self.samples
     }
 
+    /// Joint angles at phase `s` ∈ [0, 1], rad, between samples on the straight line.
+    pub fn at(&self, s: f64) -> JointAngles {
+        let last = self.samples.len() - 1;
+        let place = s.clamp(0.0, 1.0) * last as f64;
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "between 0 and the number of samples; NaN becomes 0"
+        )]
+        let before = (place as usize).min(last.saturating_sub(1));
+        let (from, to) = (
+            &self.samples[before].joints,
+            &self.samples[last.min(before + 1)].joints,
+        );
+        from.towards(to, place - before as f64)
+    }
+
     /// What was clamped, by joint.
     pub fn clamps(&self) -> &[Clamp] {
         &self.clamps
@@ -264,7 +309,7 @@ fn below_floor(posture: &ChainPosture) -> Option<(&'static str, f64)> {
         .find(|(_, height)| *height < 0.0)
 }
 
-fn note(clamps: &mut Vec<Clamp>, joint: JointId, excess: f64, s: f64) {
+pub(super) fn note(clamps: &mut Vec<Clamp>, joint: JointId, excess: f64, s: f64) {
     match clamps.iter_mut().find(|clamp| clamp.joint == joint) {
         Some(clamp) => {
             clamp.samples += 1;

@@ -84,7 +84,7 @@ fn grounded(
     chain: &ChainAngles,
     forearm: [f64; 2],
 ) -> BodyPoses<Ground> {
-    let mut joints = mapping.limb_angles(robot, chain);
+    let mut joints = mapping.unspread_limb_angles(robot, chain);
     for side in robot.chain.sides() {
         for (id, angle) in side.forearm.into_iter().zip(forearm) {
             joints[id] = angle;

@@ -56,7 +56,7 @@ fn joint_angles_stay_within_half_a_turn() {
                 Mapping::new(&robot, MappingVariant::Exact, ArmMode::FlatForearm).unwrap();
             let standing = mapping.chain_angles(&robot, &JointAngles::zero(&robot));
             assert!(standing.ankle.abs() <= TAU / 2.0, "{standing:?}");
-            let joints = mapping.limb_angles(&robot, &standing);
+            let joints = mapping.unspread_limb_angles(&robot, &standing);
             let side = &robot.chain.left;
             for id in side.pitch_joints() {
                 assert!(joints[id].abs() < 1e-12, "{}", joints[id]);

@@ -92,6 +92,14 @@ impl Robot {
             .fold(f64::NEG_INFINITY, f64::max)
     }
 
+    /// How far the robot reaches along a unit direction of the ground frame, m from its origin.
+    pub fn reach(&self, poses: &BodyPoses<Ground>, direction: DVec3) -> f64 {
+        self.shapes
+            .iter()
+            .map(|shape| shape.reach_along(poses.of(shape.body), direction))
+            .fold(f64::NEG_INFINITY, f64::max)
+    }
+
     /// Height above the floor of the lowest point of the shapes that `wanted` selects, metres; ∞
     /// where it selects none.
     pub fn bottom(&self, poses: &BodyPoses<Ground>, wanted: impl Fn(&Shape) -> bool) -> f64 {

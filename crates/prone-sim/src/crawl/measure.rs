@@ -1,0 +1,428 @@
+//! What is measured in a crawl.
+
+use glam::DVec3;
+
+use prone::frames::{Ground, Root, Transform};
+use prone::gait::cycle::CheckedCycle;
+use prone::robot::{ContactGroup, JointAngles, JointId, Robot, Shape};
+
+use super::pilot::{Stage, bearing};
+use super::{Bearing, Detail, ROW_STEP};
+use crate::simulation::{Simulation, Snapshot};
+
+/// A part of the body whose height is recorded apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum BodyPart {
+    /// Neck and head.
+    Head,
+    /// Trunk and pelvis.
+    Trunk,
+    /// From the shoulders to the hands.
+    Arms,
+    /// Thighs and shins.
+    Legs,
+    /// From the ankles on.
+    Feet,
+}
+
+impl BodyPart {
+    /// All parts, in the order of every array over them.
+    pub const ALL: [Self; 5] = [Self::Head, Self::Trunk, Self::Arms, Self::Legs, Self::Feet];
+
+    /// Name in records.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Head => "head",
+            Self::Trunk => "trunk",
+            Self::Arms => "arms",
+            Self::Legs => "legs",
+            Self::Feet => "feet",
+        }
+    }
+
+    /// The part that a shape belongs to.
+    pub fn of(robot: &Robot, shape: &Shape) -> Self {
+        let body = &robot.bodies[shape.body.0];
+        match body.contact_group {
+            _ if body.is_head => Self::Head,
+            ContactGroup::Toe => Self::Feet,
+            ContactGroup::Elbow => Self::Arms,
+            ContactGroup::Torso => Self::Trunk,
+            ContactGroup::Leg => Self::Legs,
+        }
+    }
+}
+
+/// Highest points above the floor, m, by [`BodyPart::ALL`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tops(pub [f64; 5]);
+
+impl Tops {
+    /// Of nothing yet.
+    pub const NONE: Self = Self([f64::NEG_INFINITY; 5]);
+
+    /// Of all parts.
+    pub fn highest(&self) -> f64 {
+        self.0.into_iter().fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// The part that reaches highest.
+    pub fn part(&self) -> BodyPart {
+        let parts = BodyPart::ALL.into_iter().zip(self.0);
+        parts
+            .max_by(|a, b| a.1.total_cmp(&b.1))
+            .map_or(BodyPart::Trunk, |(part, _)| part)
+    }
+
+    fn raise(&mut self, other: &Self) {
+        for (top, other) in self.0.iter_mut().zip(other.0) {
+            *top = top.max(other);
+        }
+    }
+}
+
+/// One instant of a crawl.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// Since the first pull began, s.
+    pub time: f64,
+    /// Cycle, from 0.
+    pub cycle: usize,
+    /// What it was doing.
+    pub stage: Stage,
+    /// Commanded joint angles, rad.
+    pub command: JointAngles,
+    /// Joint angles, rad.
+    pub angles: JointAngles,
+    /// **Actuator torque** of each joint about its axis, mean over the row, N·m.
+    pub actuator_torque: Vec<f64>,
+    /// Normal contact force of the ground by [`ContactGroup::ALL`], mean over the row, N.
+    pub contact: [f64; 4],
+    /// Pose of the root.
+    pub ground_from_root: Transform<Ground, Root>,
+    /// Highest points.
+    pub tops: Tops,
+}
+
+/// One cycle.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CycleRow {
+    /// The gait's name.
+    pub gait: String,
+    /// Turn command of its pull, rad.
+    pub turn: f64,
+    /// When its pull began, s.
+    pub begin: f64,
+    /// How long it lasted, s.
+    pub seconds: f64,
+    /// Where the root was when it began.
+    pub from: Bearing,
+    /// Where it was when it ended.
+    pub to: Bearing,
+    /// Highest points.
+    pub tops: Tops,
+    /// What the motors did.
+    pub effort: Effort,
+    /// Share of the ground's force on trunk and legs during the pull.
+    pub body_share: f64,
+}
+
+/// How far a cycle came, seen from where it began.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Advance {
+    /// Along its heading, m.
+    pub forward: f64,
+    /// To its left, m.
+    pub left: f64,
+    /// Change of heading, rad.
+    pub yaw: f64,
+}
+
+impl CycleRow {
+    /// How far it came.
+    pub fn advance(&self) -> Advance {
+        let (sin, cos) = self.from.yaw.sin_cos();
+        let (dx, dy) = (self.to.x - self.from.x, self.to.y - self.from.y);
+        Advance {
+            forward: cos * dx + sin * dy,
+            left: cos * dy - sin * dx,
+            yaw: self.to.yaw - self.from.yaw,
+        }
+    }
+}
+
+/// What the motors of a robot did.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Effort {
+    /// Over which time, s.
+    pub seconds: f64,
+    /// By joint.
+    pub joints: Vec<JointEffort>,
+}
+
+/// What one motor did. Torque is **actuator torque**, after the effort limit, unless it says
+/// demanded.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct JointEffort {
+    /// ∫ τ² dt, N²·m²·s.
+    pub square: f64,
+    /// ∫ max(τω, 0) dt, J: a motor is not given back what it brakes.
+    pub work: f64,
+    /// Largest |τ|, N·m.
+    pub peak: f64,
+    /// Largest |τ| demanded by the servo, before the effort limit, N·m.
+    pub demanded_peak: f64,
+    /// How long the servo demanded more than the effort limit, s.
+    pub saturated: f64,
+    /// How long the servo demanded more than the motor's nominal torque, s.
+    pub over_nominal: f64,
+}
+
+impl JointEffort {
+    fn add(&mut self, other: &Self) {
+        self.square += other.square;
+        self.work += other.work;
+        self.peak = self.peak.max(other.peak);
+        self.demanded_peak = self.demanded_peak.max(other.demanded_peak);
+        self.saturated += other.saturated;
+        self.over_nominal += other.over_nominal;
+    }
+}
+
+impl Effort {
+    fn none(robot: &Robot) -> Self {
+        Self {
+            seconds: 0.0,
+            joints: vec![JointEffort::default(); robot.joints.len()],
+        }
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.seconds += other.seconds;
+        for (joint, other) in self.joints.iter_mut().zip(&other.joints) {
+            joint.add(other);
+        }
+    }
+
+    /// ∫ Σ (τ / nominal torque)² dt over the joints whose motor is known, s: in proportion to the heat of
+    /// their windings.
+    pub fn heat(&self, robot: &Robot) -> f64 {
+        let joints = robot.joints.iter().zip(&self.joints);
+        let heats = joints.filter_map(|(joint, effort)| {
+            let nominal = joint.motor?.nominal;
+            Some(effort.square / (nominal * nominal))
+        });
+        heats.sum()
+    }
+
+    /// ∫ Σ max(τω, 0) dt, J.
+    pub fn work(&self) -> f64 {
+        self.joints.iter().map(|joint| joint.work).sum()
+    }
+
+    /// The largest |τ| over the effort limit, and whose it is.
+    pub fn peak_over_limit(&self, robot: &Robot) -> (f64, JointId) {
+        let shares = robot.joints.iter().zip(&self.joints).enumerate();
+        shares
+            .map(|(index, (joint, effort))| (effort.peak / joint.effort_limit, JointId(index)))
+            .fold(
+                (0.0, JointId(0)),
+                |best, next| if next.0 > best.0 { next } else { best },
+            )
+    }
+}
+
+/// Measures while a crawl goes on.
+pub(super) struct Meter {
+    record: Record,
+    snapshots: Vec<Snapshot>,
+    detail: Detail,
+    parts: Vec<BodyPart>,
+    limits: Vec<(f64, Option<f64>)>,
+    begin: Option<f64>,
+    cycle: Option<CycleRow>,
+    pull: [f64; 2],
+    command: JointAngles,
+    stage: Stage,
+    means: Means,
+}
+
+/// What a finished meter has.
+pub(super) struct Record {
+    pub(super) cycles: Vec<CycleRow>,
+    pub(super) effort: Effort,
+    pub(super) tops: Tops,
+    pub(super) rows: Vec<Row>,
+}
+
+/// Sums since the last row.
+struct Means {
+    steps: usize,
+    torque: Vec<f64>,
+    contact: [f64; 4],
+}
+
+impl Means {
+    fn none(joints: usize) -> Self {
+        Self {
+            steps: 0,
+            torque: vec![0.0; joints],
+            contact: [0.0; 4],
+        }
+    }
+}
+
+impl Meter {
+    pub(super) fn new(robot: &Robot, detail: Detail) -> Self {
+        let limits = robot
+            .joints
+            .iter()
+            .map(|joint| (joint.effort_limit, joint.motor.map(|motor| motor.nominal)));
+        Self {
+            record: Record {
+                cycles: Vec::new(),
+                effort: Effort::none(robot),
+                tops: Tops::NONE,
+                rows: Vec::new(),
+            },
+            snapshots: Vec::new(),
+            detail,
+            parts: robot
+                .shapes
+                .iter()
+                .map(|shape| BodyPart::of(robot, shape))
+                .collect(),
+            limits: limits.collect(),
+            begin: None,
+            cycle: None,
+            pull: [0.0; 2],
+            command: JointAngles::zero(robot),
+            stage: Stage::Recovery,
+            means: Means::none(robot.joints.len()),
+        }
+    }
+
+    pub(super) fn begin_cycle(&mut self, simulation: &Simulation<'_>, checked: &CheckedCycle) {
+        let zero = *self.begin.get_or_insert(simulation.time());
+        let from = bearing(&simulation.ground_from_root());
+        self.pull = [0.0; 2];
+        self.cycle = Some(CycleRow {
+            gait: checked.name().to_owned(),
+            turn: checked.turn(),
+            begin: simulation.time() - zero,
+            seconds: 0.0,
+            from,
+            to: from,
+            tops: Tops::NONE,
+            effort: Effort::none(simulation.robot()),
+            body_share: 0.0,
+        });
+    }
+
+    pub(super) fn end_cycle(&mut self, simulation: &Simulation<'_>) {
+        let Some(mut cycle) = self.cycle.take() else {
+            return;
+        };
+        let [body, all] = self.pull;
+        cycle.body_share = if all > 0.0 { body / all } else { 0.0 };
+        cycle.to = bearing(&simulation.ground_from_root());
+        cycle.seconds = cycle.effort.seconds;
+        self.record.effort.add(&cycle.effort);
+        self.record.tops.raise(&cycle.tops);
+        self.record.cycles.push(cycle);
+    }
+
+    pub(super) fn command(&mut self, posture: JointAngles, stage: Stage) {
+        self.command = posture;
+        self.stage = stage;
+    }
+
+    /// After each engine step.
+    pub(super) fn step(&mut self, simulation: &Simulation<'_>) {
+        let Some(cycle) = &mut self.cycle else {
+            return;
+        };
+        let dt = simulation.time_step();
+        cycle.effort.seconds += dt;
+        let torques = simulation
+            .actuator_torque()
+            .iter()
+            .zip(simulation.joint_speeds());
+        let joints = cycle
+            .effort
+            .joints
+            .iter_mut()
+            .zip(torques)
+            .zip(&self.limits);
+        for (index, ((joint, (&torque, &speed)), &(limit, nominal))) in joints.enumerate() {
+            let demanded = simulation.demanded_torque(JointId(index)).abs();
+            joint.square += torque * torque * dt;
+            joint.work += (torque * speed).max(0.0) * dt;
+            joint.peak = joint.peak.max(torque.abs());
+            joint.demanded_peak = joint.demanded_peak.max(demanded);
+            if demanded > limit {
+                joint.saturated += dt;
+            }
+            if nominal.is_some_and(|nominal| demanded > nominal) {
+                joint.over_nominal += dt;
+            }
+        }
+        let contact = simulation.ground_contact();
+        if matches!(self.stage, Stage::Pull { .. }) {
+            let [toe, elbow, torso, leg] = contact;
+            self.pull[0] += torso + leg;
+            self.pull[1] += toe + elbow + torso + leg;
+        }
+        self.means.steps += 1;
+        for (sum, torque) in self
+            .means
+            .torque
+            .iter_mut()
+            .zip(simulation.actuator_torque())
+        {
+            *sum += torque;
+        }
+        for (sum, force) in self.means.contact.iter_mut().zip(contact) {
+            *sum += force;
+        }
+        if simulation.steps_are_due(ROW_STEP) {
+            self.row(simulation);
+        }
+    }
+
+    fn row(&mut self, simulation: &Simulation<'_>) {
+        let robot = simulation.robot();
+        let means = std::mem::replace(&mut self.means, Means::none(robot.joints.len()));
+        let (Some(cycle), Some(begin)) = (&mut self.cycle, self.begin) else {
+            return;
+        };
+        let poses = simulation.body_poses();
+        let mut tops = Tops::NONE;
+        for (shape, part) in robot.shapes.iter().zip(&self.parts) {
+            let top = shape.reach_along(poses.of(shape.body), DVec3::Z);
+            let place = &mut tops.0[*part as usize];
+            *place = place.max(top);
+        }
+        cycle.tops.raise(&tops);
+        if self.detail == Detail::Sums {
+            return;
+        }
+        let mean = |sum: f64| sum / means.steps as f64;
+        self.snapshots.push(simulation.snapshot());
+        self.record.rows.push(Row {
+            time: simulation.time() - begin,
+            cycle: self.record.cycles.len(),
+            stage: self.stage,
+            command: self.command.clone(),
+            angles: simulation.joint_angles(),
+            actuator_torque: means.torque.iter().map(|&sum| mean(sum)).collect(),
+            contact: means.contact.map(mean),
+            ground_from_root: simulation.ground_from_root(),
+            tops,
+        });
+    }
+
+    pub(super) fn finish(self) -> (Record, Vec<Snapshot>) {
+        (self.record, self.snapshots)
+    }
+}

@@ -1,0 +1,559 @@
+//! A cycle held against a robot: the only thing that a crawl commands.
+
+use std::collections::BTreeMap;
+
+use super::super::trajectory::{Company, note};
+use super::super::{
+    CheckedTrajectory, Clamp, Curve, LimitsPolicy, PhaseDuration, PhaseDurationError,
+    TrajectoryError,
+};
+use super::{Approach, Cycle, Steering, TimeScale};
+use crate::robot::{JointAngles, JointId, Mirror, Range, Robot, SideLayout};
+
+/// Time between two samples of a planned pull, s: commands in between are interpolated.
+const SAMPLE_STEP: f64 = 0.005;
+
+/// A cycle whose every posture lies within the stops it was planned for and whose every joint
+/// speed lies within the robot's limits.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CheckedCycle {
+    name: String,
+    turn: f64,
+    pull: CheckedTrajectory,
+    /// Postures of the recovery with the approach to each; the last is the extension.
+    stretches: Vec<Stretch>,
+    clamps: Vec<Clamp>,
+    fastest: FastestJoint,
+    speed_limits: Vec<(String, f64)>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct Stretch {
+    name: String,
+    approach: Approach,
+    posture: JointAngles,
+}
+
+/// The joint that comes nearest to its speed limit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FastestJoint {
+    /// The maker's name.
+    pub joint: String,
+    /// Its largest commanded speed, rad/s.
+    pub speed: f64,
+    /// The maker's limit, rad/s.
+    pub limit: f64,
+}
+
+/// The recovery from a given posture, over time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RecoveryPath<'c> {
+    from: JointAngles,
+    cycle: &'c CheckedCycle,
+}
+
+/// Why a cycle cannot be crawled.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum CycleError {
+    /// The pull has no trajectory.
+    #[error(transparent)]
+    Pull(#[from] TrajectoryError),
+    /// The pull would be too short or too long at this time scale.
+    #[error("cycle {cycle}: {source}")]
+    Duration {
+        /// The cycle's name.
+        cycle: String,
+        /// What is wrong.
+        source: PhaseDurationError,
+    },
+    /// A joint that the robot does not have.
+    #[error("cycle {cycle}, {place}: robot {robot} has no joint {joint}")]
+    UnknownJoint {
+        /// The cycle's name.
+        cycle: String,
+        /// Pull, steering or a waypoint.
+        place: String,
+        /// The robot's name.
+        robot: String,
+        /// The joint's name.
+        joint: String,
+    },
+    /// A joint that the chain commands already.
+    #[error("cycle {cycle}, {place}: {joint} belongs to the chain, which moves it")]
+    ChainJoint {
+        /// The cycle's name.
+        cycle: String,
+        /// Pull or steering.
+        place: String,
+        /// The joint's name.
+        joint: String,
+    },
+    /// A stretch of the recovery that takes no time, or ages.
+    #[error("cycle {cycle}, {place}: {seconds} s is outside {}..{} s", Cycle::STRETCH_SECONDS.0, Cycle::STRETCH_SECONDS.1)]
+    Seconds {
+        /// The cycle's name.
+        cycle: String,
+        /// The waypoint.
+        place: String,
+        /// What was asked for.
+        seconds: f64,
+    },
+    /// A turn that the cycle has no steering for.
+    #[error("cycle {cycle}: a turn of {turn_deg:.2}° is more than its steering's {limit_deg:.2}°")]
+    Turn {
+        /// The cycle's name.
+        cycle: String,
+        /// What was asked for, degrees.
+        turn_deg: f64,
+        /// The largest, degrees; 0 without steering.
+        limit_deg: f64,
+    },
+    /// A joint of a waypoint passes its limit and the policy is to refuse.
+    #[error(
+        "cycle {cycle}, {place}: {joint} {angle:.4} rad is outside {lower:.4}..{upper:.4}, by {excess:.4} rad; \
+         `limits = \"clamp\"` in the file would stop it there"
+    )]
+    Limit {
+        /// The cycle's name.
+        cycle: String,
+        /// The waypoint.
+        place: String,
+        /// The joint's name.
+        joint: String,
+        /// What is asked for, rad.
+        angle: f64,
+        /// The lower stop, rad.
+        lower: f64,
+        /// The upper stop, rad.
+        upper: f64,
+        /// How far outside, rad.
+        excess: f64,
+    },
+    /// A joint would have to be faster than it is.
+    #[error(
+        "cycle {cycle}, {place}: {joint} would need {speed:.2} rad/s, above its limit of {limit:.2} rad/s"
+    )]
+    Speed {
+        /// The cycle's name.
+        cycle: String,
+        /// The pull or the waypoint that it goes to.
+        place: String,
+        /// The joint's name.
+        joint: String,
+        /// The largest speed, rad/s.
+        speed: f64,
+        /// The maker's limit, rad/s.
+        limit: f64,
+    },
+}
+
+impl CheckedCycle {
+    /// Plans a cycle with a turn command, rad, at a time scale, and holds it against `stops` (one
+    /// per joint) and the robot's joint speeds.
+    ///
+    /// # Errors
+    /// [`CycleError`], naming cycle, place, joint and amount.
+    pub fn plan(
+        robot: &Robot,
+        stops: &[Range],
+        cycle: &Cycle,
+        turn: f64,
+        scale: TimeScale,
+    ) -> Result<Self, CycleError> {
+        let planner = Planner {
+            robot,
+            stops,
+            cycle,
+            mirror: Mirror::of(robot),
+        };
+        planner.check_turn(turn)?;
+        let seconds = cycle.pull_duration.seconds() * scale.value();
+        let duration = PhaseDuration::new(seconds).map_err(|source| CycleError::Duration {
+            cycle: cycle.pull.name.clone(),
+            source,
+        })?;
+        let pull = planner.pull(duration, turn)?;
+        let straight;
+        let base = if turn == 0.0 {
+            last(&pull)
+        } else {
+            straight = planner.pull(duration, 0.0)?;
+            last(&straight)
+        };
+        let mut clamps = pull.clamps().to_vec();
+        let mut stretches = planner.waypoints(base, scale, &mut clamps)?;
+        stretches.push(Stretch {
+            name: "extension".to_owned(),
+            approach: planner.scaled("extension", cycle.approach, scale)?,
+            posture: pull.samples()[0].joints.clone(),
+        });
+        clamps.sort_by_key(|clamp| clamp.joint);
+        let mut checked = Self {
+            name: cycle.pull.name.clone(),
+            turn,
+            pull,
+            stretches,
+            clamps,
+            fastest: FastestJoint {
+                joint: String::new(),
+                speed: 0.0,
+                limit: f64::INFINITY,
+            },
+            speed_limits: robot
+                .joints
+                .iter()
+                .map(|joint| (joint.name.clone(), joint.speed_limit))
+                .collect(),
+        };
+        checked.fastest = checked.pull_speed()?;
+        let recovery = checked.recovery_speed(checked.compression())?;
+        if recovery.share() > checked.fastest.share() {
+            checked.fastest = recovery;
+        }
+        Ok(checked)
+    }
+
+    /// The cycle's name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The turn command, rad.
+    pub const fn turn(&self) -> f64 {
+        self.turn
+    }
+
+    /// The posture in which the pull begins.
+    pub fn extension(&self) -> &JointAngles {
+        &self.pull.samples()[0].joints
+    }
+
+    /// The posture in which the pull ends.
+    pub fn compression(&self) -> &JointAngles {
+        last(&self.pull)
+    }
+
+    /// The closed-chain phase.
+    pub const fn pull(&self) -> &CheckedTrajectory {
+        &self.pull
+    }
+
+    /// Joint angles at a time since the pull began, s.
+    pub fn pull_at(&self, seconds: f64) -> JointAngles {
+        self.pull.at(seconds / self.pull.duration().seconds())
+    }
+
+    /// How long the recovery lasts, s.
+    pub fn recovery_seconds(&self) -> f64 {
+        let times = self
+            .stretches
+            .iter()
+            .map(|stretch| stretch.approach.seconds);
+        times.sum()
+    }
+
+    /// Names of the recovery's stretches, each with the time at which it ends, s.
+    pub fn recovery_ends(&self) -> Vec<(&str, f64)> {
+        let mut end = 0.0;
+        let stretches = self.stretches.iter().map(|stretch| {
+            end += stretch.approach.seconds;
+            (stretch.name.as_str(), end)
+        });
+        stretches.collect()
+    }
+
+    /// The way to this cycle's extension from where another pull ended.
+    ///
+    /// # Errors
+    /// [`CycleError::Speed`] where a joint would have to be too fast on the first stretch.
+    pub fn recovery_from(&self, from: JointAngles) -> Result<RecoveryPath<'_>, CycleError> {
+        self.recovery_speed(&from)?;
+        Ok(RecoveryPath { from, cycle: self })
+    }
+
+    /// What was clamped, by joint; a waypoint counts as a sample at phase 1.
+    pub fn clamps(&self) -> &[Clamp] {
+        &self.clamps
+    }
+
+    /// The joint that comes nearest to its speed limit.
+    pub const fn fastest(&self) -> &FastestJoint {
+        &self.fastest
+    }
+
+    fn pull_speed(&self) -> Result<FastestJoint, CycleError> {
+        let samples = self.pull.samples();
+        let step = self.pull.duration().seconds() / (samples.len() - 1) as f64;
+        let mut fastest = vec![0.0_f64; self.speed_limits.len()];
+        for pair in samples.windows(2) {
+            let (from, to) = (pair[0].joints.as_slice(), pair[1].joints.as_slice());
+            for ((fastest, from), to) in fastest.iter_mut().zip(from).zip(to) {
+                *fastest = fastest.max((to - from).abs() / step);
+            }
+        }
+        self.within_speeds("pull", &fastest)
+    }
+
+    fn recovery_speed(&self, from: &JointAngles) -> Result<FastestJoint, CycleError> {
+        let mut nearest: Option<FastestJoint> = None;
+        let mut from = from;
+        for stretch in &self.stretches {
+            let Approach { seconds, easing } = stretch.approach;
+            let ways = from.as_slice().iter().zip(stretch.posture.as_slice());
+            let speeds: Vec<f64> = ways
+                .map(|(from, to)| easing.peak_speed() * (to - from).abs() / seconds)
+                .collect();
+            let fastest = self.within_speeds(&stretch.name, &speeds)?;
+            if nearest
+                .as_ref()
+                .is_none_or(|old| fastest.share() > old.share())
+            {
+                nearest = Some(fastest);
+            }
+            from = &stretch.posture;
+        }
+        nearest.map_or_else(|| self.pull_speed(), Ok)
+    }
+
+    /// The joint of largest speed over limit; an error where it is over.
+    fn within_speeds(&self, place: &str, speeds: &[f64]) -> Result<FastestJoint, CycleError> {
+        let joints = self.speed_limits.iter().zip(speeds);
+        let fastest = joints
+            .map(|((joint, limit), &speed)| FastestJoint {
+                joint: joint.clone(),
+                speed,
+                limit: *limit,
+            })
+            .max_by(|a, b| a.share().total_cmp(&b.share()));
+        let fastest = fastest.unwrap_or_else(|| self.fastest.clone());
+        if fastest.share() > 1.0 {
+            return Err(CycleError::Speed {
+                cycle: self.name.clone(),
+                place: place.to_owned(),
+                joint: fastest.joint,
+                speed: fastest.speed,
+                limit: fastest.limit,
+            });
+        }
+        Ok(fastest)
+    }
+}
+
+impl FastestJoint {
+    /// Speed over limit.
+    pub fn share(&self) -> f64 {
+        self.speed / self.limit
+    }
+}
+
+impl RecoveryPath<'_> {
+    /// Joint angles at a time since the recovery began, s.
+    pub fn at(&self, seconds: f64) -> JointAngles {
+        let mut begin = 0.0;
+        let mut from = &self.from;
+        for stretch in &self.cycle.stretches {
+            let Approach {
+                seconds: length,
+                easing,
+            } = stretch.approach;
+            if seconds < begin + length {
+                return from.towards(&stretch.posture, easing.share((seconds - begin) / length));
+            }
+            begin += length;
+            from = &stretch.posture;
+        }
+        from.clone()
+    }
+}
+
+fn last(pull: &CheckedTrajectory) -> &JointAngles {
+    let samples = pull.samples();
+    &samples[samples.len() - 1].joints
+}
+
+struct Planner<'a> {
+    robot: &'a Robot,
+    stops: &'a [Range],
+    cycle: &'a Cycle,
+    mirror: Mirror,
+}
+
+impl Planner<'_> {
+    fn check_turn(&self, turn: f64) -> Result<(), CycleError> {
+        let limit = self
+            .cycle
+            .steering
+            .as_ref()
+            .map_or(0.0, |steering| steering.limit);
+        // NaN is no turn either.
+        if turn.abs() <= limit {
+            return Ok(());
+        }
+        Err(CycleError::Turn {
+            cycle: self.cycle.pull.name.clone(),
+            turn_deg: turn.to_degrees(),
+            limit_deg: limit.to_degrees(),
+        })
+    }
+
+    fn pull(&self, duration: PhaseDuration, turn: f64) -> Result<CheckedTrajectory, CycleError> {
+        let chain = self.robot.chain.sides().map(SideLayout::commanded_joints);
+        let outside = |place: &str, joint: JointId| {
+            if chain.iter().flatten().any(|&id| id == joint) {
+                return Err(CycleError::ChainJoint {
+                    cycle: self.cycle.pull.name.clone(),
+                    place: place.to_owned(),
+                    joint: self.robot.joints[joint.0].name.clone(),
+                });
+            }
+            Ok(joint)
+        };
+        let mut company: Vec<(JointId, f64, &Curve)> = Vec::new();
+        for (joint, sign, curve) in self.with_twins("pull", &self.cycle.company)? {
+            company.push((outside("pull", joint)?, sign, curve));
+        }
+        let mut swing: Vec<(JointId, f64)> = Vec::new();
+        let mut spread = 0.0;
+        if let Some(Steering {
+            spread: k, joints, ..
+        }) = &self.cycle.steering
+        {
+            spread = *k;
+            for (name, &factor) in joints {
+                swing.push((outside("steering", self.joint("steering", name)?)?, factor));
+            }
+        }
+        let at = |s: f64| {
+            let asymmetry = turn * (1.0 - 2.0 * s);
+            let along = company
+                .iter()
+                .map(|&(joint, sign, curve)| (joint, sign * curve.value(s)));
+            let mut joints: Vec<_> = along.collect();
+            joints.extend(
+                swing
+                    .iter()
+                    .map(|&(joint, factor)| (joint, factor * asymmetry)),
+            );
+            Company {
+                spread: [spread * asymmetry, -spread * asymmetry],
+                joints,
+            }
+        };
+        let gait = &self.cycle.pull;
+        let intervals = intervals(duration);
+        Ok(CheckedTrajectory::plan_in_company(
+            self.robot, self.stops, gait, duration, intervals, at,
+        )?)
+    }
+
+    fn waypoints(
+        &self,
+        base: &JointAngles,
+        scale: TimeScale,
+        clamps: &mut Vec<Clamp>,
+    ) -> Result<Vec<Stretch>, CycleError> {
+        let mut stretches = Vec::with_capacity(self.cycle.recovery.len() + 1);
+        let mut posture = base.clone();
+        for waypoint in &self.cycle.recovery {
+            let place = format!("waypoint {}", waypoint.name);
+            for (joint, sign, &angle) in self.with_twins(&place, &waypoint.joints)? {
+                posture[joint] = sign * angle;
+            }
+            self.keep_within_stops(&place, &mut posture, clamps)?;
+            stretches.push(Stretch {
+                name: waypoint.name.clone(),
+                approach: self.scaled(&place, waypoint.approach, scale)?,
+                posture: posture.clone(),
+            });
+        }
+        Ok(stretches)
+    }
+
+    fn keep_within_stops(
+        &self,
+        place: &str,
+        posture: &mut JointAngles,
+        clamps: &mut Vec<Clamp>,
+    ) -> Result<(), CycleError> {
+        for (index, (joint, stop)) in self.robot.joints.iter().zip(self.stops).enumerate() {
+            let id = JointId(index);
+            let angle = posture[id];
+            if stop.contains(angle) {
+                continue;
+            }
+            let excess = stop.excess(angle);
+            if self.cycle.pull.limits == LimitsPolicy::Refuse || excess.is_nan() {
+                return Err(CycleError::Limit {
+                    cycle: self.cycle.pull.name.clone(),
+                    place: place.to_owned(),
+                    joint: joint.name.clone(),
+                    angle,
+                    lower: stop.lower,
+                    upper: stop.upper,
+                    excess: excess.abs(),
+                });
+            }
+            posture[id] = angle.clamp(stop.lower, stop.upper);
+            note(clamps, id, excess, 1.0);
+        }
+        Ok(())
+    }
+
+    fn scaled(
+        &self,
+        place: &str,
+        approach: Approach,
+        scale: TimeScale,
+    ) -> Result<Approach, CycleError> {
+        let (least, most) = Cycle::STRETCH_SECONDS;
+        if !(least..=most).contains(&approach.seconds) {
+            return Err(CycleError::Seconds {
+                cycle: self.cycle.pull.name.clone(),
+                place: place.to_owned(),
+                seconds: approach.seconds,
+            });
+        }
+        Ok(Approach {
+            seconds: approach.seconds * scale.value(),
+            ..approach
+        })
+    }
+
+    /// The named joints, and the twins of those whose twin is not named, with their sign.
+    fn with_twins<'v, V>(
+        &self,
+        place: &str,
+        named: &'v BTreeMap<String, V>,
+    ) -> Result<Vec<(JointId, f64, &'v V)>, CycleError> {
+        let mut joints = Vec::with_capacity(2 * named.len());
+        for (name, value) in named {
+            let id = self.joint(place, name)?;
+            joints.push((id, 1.0, value));
+            let twin = self.mirror.twin(id);
+            let twin = twin.filter(|twin| {
+                twin.joint != id && !named.contains_key(&self.robot.joints[twin.joint.0].name)
+            });
+            joints.extend(twin.map(|twin| (twin.joint, twin.sign, value)));
+        }
+        Ok(joints)
+    }
+
+    fn joint(&self, place: &str, name: &str) -> Result<JointId, CycleError> {
+        let unknown = || CycleError::UnknownJoint {
+            cycle: self.cycle.pull.name.clone(),
+            place: place.to_owned(),
+            robot: self.robot.name.clone(),
+            joint: name.to_owned(),
+        };
+        self.robot.joint(name).ok_or_else(unknown)
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a phase lasts 0.1 to 600 s, so this is 20 to 120,000"
+)]
+fn intervals(duration: PhaseDuration) -> usize {
+    (duration.seconds() / SAMPLE_STEP).round() as usize
+}

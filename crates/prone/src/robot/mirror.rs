@@ -1,0 +1,137 @@
+//! Which joint is which other one's mirror image.
+//!
+//! A mirror in the sagittal plane takes a point (x, y, z) to (x, −y, z) and an axis of rotation
+//! (x, y, z) to (−x, y, −z). Two hinges are twins where, at zero angles, one's axis is the other's
+//! mirrored and one's anchor is the other's mirrored. A hinge in the plane is its own twin. (Lines
+//! are not enough: the pitch axes of both sides are one line.)
+
+use glam::DVec3;
+
+use super::{JointAngles, JointId, Robot};
+use crate::frames::{Root, Transform};
+
+/// How far a mirrored hinge may miss its twin, m and as a sine: rounding in a model file.
+const TOLERANCE: f64 = 1e-6;
+
+/// The twin of every joint that has one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mirror(Vec<Option<Twin>>);
+
+/// A joint's mirror image.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Twin {
+    /// The other joint; for a joint in the sagittal plane itself.
+    pub joint: JointId,
+    /// What an angle is multiplied by there, ±1.
+    pub sign: f64,
+}
+
+/// A hinge in the root frame.
+struct Hinge {
+    anchor: DVec3,
+    axis: DVec3,
+}
+
+impl Mirror {
+    /// Finds the twins of a robot's joints.
+    pub fn of(robot: &Robot) -> Self {
+        let poses = robot.forward_kinematics(
+            Transform::<Root, Root>::translation(DVec3::ZERO),
+            &JointAngles::zero(robot),
+        );
+        let hinges: Vec<Hinge> = robot
+            .joints
+            .iter()
+            .map(|joint| Hinge {
+                anchor: poses.point((joint.body, joint.anchor)).metres(),
+                axis: poses.of(joint.body).rotate(joint.axis),
+            })
+            .collect();
+        let twin = |hinge: &Hinge| {
+            let place = hinges.iter().position(|other| coincide(hinge, other))?;
+            Some(Twin {
+                joint: JointId(place),
+                sign: mirrored(hinge).axis.dot(hinges[place].axis).signum(),
+            })
+        };
+        Self(hinges.iter().map(twin).collect())
+    }
+
+    /// The twin of a joint, `None` where the robot is not symmetric there.
+    pub fn twin(&self, joint: JointId) -> Option<Twin> {
+        self.0[joint.0]
+    }
+
+    /// The mirrored posture, rad; joints without a twin keep their angle.
+    pub fn posture(&self, angles: &JointAngles) -> JointAngles {
+        let mut mirrored = angles.clone();
+        for (index, twin) in self.0.iter().enumerate() {
+            if let Some(twin) = twin {
+                mirrored[twin.joint] = twin.sign * angles[JointId(index)];
+            }
+        }
+        mirrored
+    }
+}
+
+fn mirrored(hinge: &Hinge) -> Hinge {
+    let (p, a) = (hinge.anchor, hinge.axis);
+    Hinge {
+        anchor: DVec3::new(p.x, -p.y, p.z),
+        axis: DVec3::new(-a.x, a.y, -a.z),
+    }
+}
+
+/// Whether one hinge's mirror image is the other.
+fn coincide(hinge: &Hinge, other: &Hinge) -> bool {
+    let image = mirrored(hinge);
+    image.axis.cross(other.axis).length() < TOLERANCE
+        && (other.anchor - image.anchor).length() < TOLERANCE
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robot::testing;
+
+    #[test]
+    fn twins_are_each_others_and_the_image_of_the_image_is_the_posture() {
+        let robot = testing::two_armed();
+        let mirror = Mirror::of(&robot);
+        for index in 0..robot.joints.len() {
+            let twin = mirror.twin(JointId(index)).unwrap();
+            let back = mirror.twin(twin.joint).unwrap();
+            assert_eq!(back.joint, JointId(index));
+            assert!((back.sign - twin.sign).abs() < f64::EPSILON);
+        }
+        let chain = &robot.chain;
+        let pairs = chain.left.commanded_joints().into_iter();
+        for (left, right) in pairs.zip(chain.right.commanded_joints()) {
+            assert_eq!(mirror.twin(left).unwrap().joint, right);
+        }
+        let angles = (0..robot.joints.len()).map(|k| 0.1 * k as f64).collect();
+        let posture = JointAngles::from_vec(angles);
+        assert_eq!(mirror.posture(&mirror.posture(&posture)), posture);
+    }
+
+    /// The mirrored posture puts every body's hinge where the mirror image of its twin's is.
+    #[test]
+    fn left_mirrors_right() {
+        let robot = testing::two_armed();
+        let mirror = Mirror::of(&robot);
+        let root = Transform::<Root, Root>::translation(DVec3::ZERO);
+        let angles = (0..robot.joints.len())
+            .map(|k| 0.3 - 0.07 * k as f64)
+            .collect();
+        let posture = JointAngles::from_vec(angles);
+        let poses = robot.forward_kinematics(root, &posture);
+        let images = robot.forward_kinematics(root, &mirror.posture(&posture));
+        for (index, joint) in robot.joints.iter().enumerate() {
+            let twin = &robot.joints[mirror.twin(JointId(index)).unwrap().joint.0];
+            let here = poses.point((joint.body, joint.anchor)).metres();
+            let there = images.point((twin.body, twin.anchor)).metres();
+            let off = there - DVec3::new(here.x, -here.y, here.z);
+            assert!(off.length() < 1e-9, "{}: {off}", joint.name);
+        }
+    }
+}
