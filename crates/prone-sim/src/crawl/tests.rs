@@ -22,23 +22,40 @@ fn crawl(world: &World, cycle: &str, cycles: usize, turn: f64) -> Crawl {
 }
 
 #[test]
-fn print_it() {
+fn regression_shipped_cycles_advance_and_repeat_themselves() {
     let robot = nao();
     let world = World::new(&robot, Regime::LOCOMOTION).unwrap();
-    for name in shipped::cycle_names() {
-        let crawl = crawl(&world, name, 4, 0.0);
-        for c in &crawl.cycles {
-            let a = c.advance();
-            println!(
-                "{name}: {:.1} mm, left {:.1}, yaw {:.2}°, {:.2} s tops {:?} body {:.2} heat {:.2}",
-                a.forward * 1e3,
-                a.left * 1e3,
-                a.yaw.to_degrees(),
-                c.seconds,
-                c.tops.0.map(|t| (t * 1e4).round() / 10.0),
-                c.body_share,
-                c.effort.heat(robot.robot())
-            );
-        }
+    // mm per cycle of the third cycle, highest point in mm: today's, rounded.
+    for (name, advance, top) in [
+        ("thesis-nominal", 79.0, 225.0),
+        ("thesis-optimal", 94.0, 225.0),
+        ("low-175", 134.0, 175.0),
+        ("low-165", 113.0, 164.0),
+    ] {
+        let crawl = crawl(&world, name, 3, 0.0);
+        let third = &crawl.cycles[2];
+        let forward = third.advance().forward * 1e3;
+        assert!((forward - advance).abs() < 2.0, "{name}: {forward:.1} mm");
+        let highest = crawl.tops.highest() * 1e3;
+        assert!((highest - top).abs() < 1.0, "{name}: {highest:.1} mm");
+        let steady = crawl.cycles[1].advance().forward * 1e3;
+        assert!((steady - forward).abs() < 2.0, "{name}: {steady:.1} mm");
+        // Symmetric gait, symmetric robot.
+        assert!(third.advance().yaw.abs() < 0.005, "{name}");
     }
+}
+
+#[test]
+fn left_mirrors_right() {
+    let robot = nao();
+    let world = World::new(&robot, Regime::LOCOMOTION).unwrap();
+    let turned = |degrees: f64| {
+        let crawl = crawl(&world, "low-175", 3, degrees.to_radians());
+        let last = crawl.cycles[2].advance();
+        (last.yaw.to_degrees(), last.forward * 1e3)
+    };
+    let ((left, there), (right, back)) = (turned(12.0), turned(-12.0));
+    assert!(left > 6.0, "{left}° a cycle");
+    assert!((left + right).abs() < 0.1 * left, "{left}° and {right}°");
+    assert!((there - back).abs() < 0.1 * there, "{there} and {back} mm");
 }
