@@ -48,8 +48,8 @@ pub struct Waypoint {
     pub name: String,
     /// How it is reached.
     pub approach: Approach,
-    /// Joint angles, rad. Those not named are as in the waypoint before; before the first, as at
-    /// the end of a straight pull.
+    /// Joint angles, rad. Those not named stay where they are; but what a turn moved beside the
+    /// arms goes back to zero with the first waypoint.
     pub joints: BTreeMap<String, f64>,
 }
 

@@ -20,7 +20,7 @@ pub struct CheckedCycle {
     name: String,
     turn: f64,
     pull: CheckedTrajectory,
-    /// Postures of the recovery with the approach to each; the last is the extension.
+    /// The recovery, waypoint by waypoint; the last is the extension.
     stretches: Vec<Stretch>,
     clamps: Vec<Clamp>,
     fastest: FastestJoint,
@@ -31,7 +31,8 @@ pub struct CheckedCycle {
 struct Stretch {
     name: String,
     approach: Approach,
-    posture: JointAngles,
+    /// Where each joint goes, rad; `None` where it stays.
+    targets: Vec<Option<f64>>,
 }
 
 /// The joint that comes nearest to its speed limit.
@@ -47,9 +48,9 @@ pub struct FastestJoint {
 
 /// The recovery from a given posture, over time.
 #[derive(Debug, Clone, PartialEq)]
-pub struct RecoveryPath<'c> {
+pub struct RecoveryPath {
     from: JointAngles,
-    cycle: &'c CheckedCycle,
+    legs: Vec<(Approach, JointAngles)>,
 }
 
 /// Why a cycle cannot be crawled.
@@ -173,19 +174,18 @@ impl CheckedCycle {
             source,
         })?;
         let pull = planner.pull(duration, turn)?;
-        let straight;
-        let base = if turn == 0.0 {
-            last(&pull)
-        } else {
-            straight = planner.pull(duration, 0.0)?;
-            last(&straight)
-        };
         let mut clamps = pull.clamps().to_vec();
-        let mut stretches = planner.waypoints(base, scale, &mut clamps)?;
+        let mut stretches = planner.waypoints(scale, &mut clamps)?;
         stretches.push(Stretch {
             name: "extension".to_owned(),
             approach: planner.scaled("extension", cycle.approach, scale)?,
-            posture: pull.samples()[0].joints.clone(),
+            targets: pull.samples()[0]
+                .joints
+                .as_slice()
+                .iter()
+                .copied()
+                .map(Some)
+                .collect(),
         });
         clamps.sort_by_key(|clamp| clamp.joint);
         let mut checked = Self {
@@ -206,7 +206,7 @@ impl CheckedCycle {
                 .collect(),
         };
         checked.fastest = checked.pull_speed()?;
-        let recovery = checked.recovery_speed(checked.compression())?;
+        let recovery = checked.recovery_speed(&checked.path(checked.compression().clone()))?;
         if recovery.share() > checked.fastest.share() {
             checked.fastest = recovery;
         }
@@ -265,10 +265,22 @@ impl CheckedCycle {
     /// The way to this cycle's extension from where another pull ended.
     ///
     /// # Errors
-    /// [`CycleError::Speed`] where a joint would have to be too fast on the first stretch.
-    pub fn recovery_from(&self, from: JointAngles) -> Result<RecoveryPath<'_>, CycleError> {
-        self.recovery_speed(&from)?;
-        Ok(RecoveryPath { from, cycle: self })
+    /// [`CycleError::Speed`] where a joint would have to be too fast.
+    pub fn recovery_from(&self, from: JointAngles) -> Result<RecoveryPath, CycleError> {
+        let path = self.path(from);
+        self.recovery_speed(&path)?;
+        Ok(path)
+    }
+
+    fn path(&self, from: JointAngles) -> RecoveryPath {
+        let mut posture = from.clone();
+        let legs = self.stretches.iter().map(|stretch| {
+            let pairs = posture.as_slice().iter().zip(&stretch.targets);
+            posture = JointAngles::from_vec(pairs.map(|(now, to)| to.unwrap_or(*now)).collect());
+            (stretch.approach, posture.clone())
+        });
+        let legs = legs.collect();
+        RecoveryPath { from, legs }
     }
 
     /// What was clamped, by joint; a waypoint counts as a sample at phase 1.
@@ -294,25 +306,20 @@ impl CheckedCycle {
         self.within_speeds("pull", &fastest)
     }
 
-    fn recovery_speed(&self, from: &JointAngles) -> Result<FastestJoint, CycleError> {
-        let mut nearest: Option<FastestJoint> = None;
-        let mut from = from;
-        for stretch in &self.stretches {
-            let Approach { seconds, easing } = stretch.approach;
-            let ways = from.as_slice().iter().zip(stretch.posture.as_slice());
-            let speeds: Vec<f64> = ways
-                .map(|(from, to)| easing.peak_speed() * (to - from).abs() / seconds)
-                .collect();
+    fn recovery_speed(&self, path: &RecoveryPath) -> Result<FastestJoint, CycleError> {
+        let mut nearest = self.fastest.clone();
+        let mut from = &path.from;
+        for (stretch, (approach, to)) in self.stretches.iter().zip(&path.legs) {
+            let mean = approach.easing.peak_speed() / approach.seconds;
+            let ways = from.as_slice().iter().zip(to.as_slice());
+            let speeds: Vec<f64> = ways.map(|(from, to)| mean * (to - from).abs()).collect();
             let fastest = self.within_speeds(&stretch.name, &speeds)?;
-            if nearest
-                .as_ref()
-                .is_none_or(|old| fastest.share() > old.share())
-            {
-                nearest = Some(fastest);
+            if fastest.share() > nearest.share() {
+                nearest = fastest;
             }
-            from = &stretch.posture;
+            from = to;
         }
-        nearest.map_or_else(|| self.pull_speed(), Ok)
+        Ok(nearest)
     }
 
     /// The joint of largest speed over limit; an error where it is over.
@@ -346,21 +353,18 @@ impl FastestJoint {
     }
 }
 
-impl RecoveryPath<'_> {
+impl RecoveryPath {
     /// Joint angles at a time since the recovery began, s.
     pub fn at(&self, seconds: f64) -> JointAngles {
         let mut begin = 0.0;
         let mut from = &self.from;
-        for stretch in &self.cycle.stretches {
-            let Approach {
-                seconds: length,
-                easing,
-            } = stretch.approach;
-            if seconds < begin + length {
-                return from.towards(&stretch.posture, easing.share((seconds - begin) / length));
+        for (approach, to) in &self.legs {
+            let share = (seconds - begin) / approach.seconds;
+            if share < 1.0 {
+                return from.towards(to, approach.easing.share(share));
             }
-            begin += length;
-            from = &stretch.posture;
+            begin += approach.seconds;
+            from = to;
         }
         from.clone()
     }
@@ -448,55 +452,56 @@ impl Planner<'_> {
 
     fn waypoints(
         &self,
-        base: &JointAngles,
         scale: TimeScale,
         clamps: &mut Vec<Clamp>,
     ) -> Result<Vec<Stretch>, CycleError> {
         let mut stretches = Vec::with_capacity(self.cycle.recovery.len() + 1);
-        let mut posture = base.clone();
-        for waypoint in &self.cycle.recovery {
+        for (index, waypoint) in self.cycle.recovery.iter().enumerate() {
             let place = format!("waypoint {}", waypoint.name);
-            for (joint, sign, &angle) in self.with_twins(&place, &waypoint.joints)? {
-                posture[joint] = sign * angle;
+            let mut targets = vec![None; self.robot.joints.len()];
+            if let (0, Some(steering)) = (index, &self.cycle.steering) {
+                // A turn's joints go back; the arms stay, as they are planted.
+                for name in steering.joints.keys() {
+                    targets[self.joint("steering", name)?.0] = Some(0.0);
+                }
             }
-            self.keep_within_stops(&place, &mut posture, clamps)?;
+            for (joint, sign, &angle) in self.with_twins(&place, &waypoint.joints)? {
+                targets[joint.0] = Some(self.within_stop(&place, joint, sign * angle, clamps)?);
+            }
             stretches.push(Stretch {
                 name: waypoint.name.clone(),
                 approach: self.scaled(&place, waypoint.approach, scale)?,
-                posture: posture.clone(),
+                targets,
             });
         }
         Ok(stretches)
     }
 
-    fn keep_within_stops(
+    fn within_stop(
         &self,
         place: &str,
-        posture: &mut JointAngles,
+        id: JointId,
+        angle: f64,
         clamps: &mut Vec<Clamp>,
-    ) -> Result<(), CycleError> {
-        for (index, (joint, stop)) in self.robot.joints.iter().zip(self.stops).enumerate() {
-            let id = JointId(index);
-            let angle = posture[id];
-            if stop.contains(angle) {
-                continue;
-            }
-            let excess = stop.excess(angle);
-            if self.cycle.pull.limits == LimitsPolicy::Refuse || excess.is_nan() {
-                return Err(CycleError::Limit {
-                    cycle: self.cycle.pull.name.clone(),
-                    place: place.to_owned(),
-                    joint: joint.name.clone(),
-                    angle,
-                    lower: stop.lower,
-                    upper: stop.upper,
-                    excess: excess.abs(),
-                });
-            }
-            posture[id] = angle.clamp(stop.lower, stop.upper);
-            note(clamps, id, excess, 1.0);
+    ) -> Result<f64, CycleError> {
+        let stop = self.stops[id.0];
+        if stop.contains(angle) {
+            return Ok(angle);
         }
-        Ok(())
+        let excess = stop.excess(angle);
+        if self.cycle.pull.limits == LimitsPolicy::Refuse || excess.is_nan() {
+            return Err(CycleError::Limit {
+                cycle: self.cycle.pull.name.clone(),
+                place: place.to_owned(),
+                joint: self.robot.joints[id.0].name.clone(),
+                angle,
+                lower: stop.lower,
+                upper: stop.upper,
+                excess: excess.abs(),
+            });
+        }
+        note(clamps, id, excess, 1.0);
+        Ok(angle.clamp(stop.lower, stop.upper))
     }
 
     fn scaled(
