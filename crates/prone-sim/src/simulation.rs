@@ -180,6 +180,11 @@ impl<'w> Simulation<'w> {
         Snapshot(self.data.qpos().to_vec())
     }
 
+    /// The readings of the model's sensors, as of the beginning of the last engine step.
+    pub(crate) fn sensor_readings(&self) -> &[f64] {
+        self.data.sensordata()
+    }
+
     /// The engine's own data, to go on without this crate's servos and records.
     pub fn into_engine_data(self) -> MjData<Arc<MjModel>> {
         self.data
