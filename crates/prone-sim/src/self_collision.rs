@@ -267,11 +267,7 @@ fn geoms(model: &MjModel, robot: &Robot) -> Vec<usize> {
     geoms
 }
 
-fn shapes_of(
-    robot: &Robot,
-    limbs: &[Option<Limb>],
-    limb: Limb,
-) -> impl Iterator<Item = usize> {
+fn shapes_of(robot: &Robot, limbs: &[Option<Limb>], limb: Limb) -> impl Iterator<Item = usize> {
     let belongs = move |shape: &Shape| limbs[shape.body.0] == Some(limb);
     (0..robot.shapes.len()).filter(move |&index| belongs(&robot.shapes[index]))
 }

@@ -102,12 +102,25 @@ impl<'w> Simulation<'w> {
     /// # Errors
     /// [`SimulationError::Diverged`].
     pub fn control_step(&mut self) -> Result<StepMeans, SimulationError> {
+        self.control_step_with(|_| ())
+    }
+
+    /// One control step, with a look after each of its engine steps: for [`crate::imu`], which
+    /// misses jolts when it reads once per control step.
+    ///
+    /// # Errors
+    /// [`SimulationError::Diverged`].
+    pub fn control_step_with(
+        &mut self,
+        mut after_engine_step: impl FnMut(&Self),
+    ) -> Result<StepMeans, SimulationError> {
         let mut means = StepMeans {
             actuator_torque: vec![0.0; self.reference.len()],
             contact: [0.0; 4],
         };
         for _ in 0..STEPS_PER_CONTROL {
             self.step();
+            after_engine_step(self);
             for (sum, torque) in means
                 .actuator_torque
                 .iter_mut()

@@ -18,16 +18,21 @@
 //! the root frame:
 //!
 //! ```text
-//! a = f / |f|                                                                    (3)
+//! a = f / g                                                                      (3)
 //! e = a × û                                                                      (4)
 //! dû/dt = −(Ω − b̂ + kP e) × û                                                    (5)
 //! db̂/dt = −kI e                                                                  (6)
 //! ```
 //!
 //! Standing still, a is up, and the error decays with s² + kP s + kI = 0 while the bias b̂ is
-//! learned (all but its part along u, which does not matter here). Where |f| is not near gravity the
-//! robot is being accelerated, a is not up, and e = 0: gyroscopes only. (5) is integrated as one
-//! turn per step, so that û stays a unit vector.
+//! learned (all but its part along u, which does not matter here). (5) is integrated as one turn per
+//! step, so that û stays a unit vector.
+//!
+//! The source has f / |f| in (3), and filters in use leave out readings whose |f| is not near
+//! gravity. Both are wrong for a crawl, which drags slowly and slips in jolts: over a movement from
+//! rest to rest the mean of f is gravity, but that of its directions is not, and without the jolts
+//! the drag is taken for a slope. So f enters linearly and always, and the filter has to see all of
+//! it: sampled every control step instead of every engine step, jolts are missed.
 //!
 //! A floor that rises by s in the direction of travel turns a robot in the same posture by −s about
 //! +y: s = p(planned on level ground) − p(measured)                                 (7)
@@ -41,6 +46,10 @@ use crate::statics::GRAVITY;
 
 /// Below this length of u in the sagittal plane pitch is noise: within 6° of lying on a side.
 const LEAST_SAGITTAL: f64 = 0.1;
+
+/// How near |f| is to gravity where a robot may be at rest, as a part of it: a sensor's own errors
+/// are below 5 %.
+const AT_REST: f64 = 0.2;
 
 /// One sample of an inertial unit, along the root's axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,18 +73,13 @@ pub struct Gains {
     pub proportional: f64,
     /// kI of equation (6), 1/s².
     pub integral: f64,
-    /// Largest difference of |f| from gravity at which f counts, as a part of gravity.
-    pub trust: f64,
 }
 
 impl Gains {
-    /// kP and kI as in the experiments of the source: damping 0.91, settled within 2 % after about
-    /// 8 s. That |f| must be within 20 % of gravity is our choice; a sensor's own errors are below
-    /// 5 %.
+    /// As in the experiments of the source: damping 0.91, settled within 2 % after about 8 s.
     pub const PUBLISHED: Self = Self {
         proportional: 1.0,
         integral: 0.3,
-        trust: 0.2,
     };
 }
 
@@ -206,12 +210,11 @@ impl AttitudeFilter {
     /// [`AttitudeError::NotAtRest`].
     pub fn aligned(gains: Gains, reading: &ImuReading) -> Result<Self, AttitudeError> {
         check(reading)?;
-        let up = gains
-            .up(reading.specific_force)
-            .ok_or(AttitudeError::NotAtRest {
-                specific_force: reading.specific_force.length(),
-            })?;
-        Ok(Self::new(gains, Attitude { up_in_root: up }))
+        let specific_force = reading.specific_force.length();
+        if (specific_force - GRAVITY).abs() > AT_REST * GRAVITY {
+            return Err(AttitudeError::NotAtRest { specific_force });
+        }
+        Ok(Self::new(gains, Attitude::from_up(reading.specific_force)?))
     }
 
     /// Takes in a reading that holds for `time_step`, s: equations (3) to (6).
@@ -225,10 +228,7 @@ impl AttitudeFilter {
             return Err(AttitudeError::TimeStep { step_s: time_step });
         }
         let up = self.attitude.up_in_root;
-        let error = match self.gains.up(reading.specific_force) {
-            Some(measured) => measured.cross(up),
-            None => DVec3::ZERO,
-        };
+        let error = (reading.specific_force / GRAVITY).cross(up);
         let rate = reading.angular_velocity - self.gyroscope_bias + self.gains.proportional * error;
         let turn = DQuat::from_scaled_axis(-rate * time_step);
         self.attitude.up_in_root = (turn * up).normalize();
@@ -244,16 +244,6 @@ impl AttitudeFilter {
     /// What it holds for the gyroscopes' bias, rad/s.
     pub const fn gyroscope_bias(&self) -> DVec3 {
         self.gyroscope_bias
-    }
-}
-
-impl Gains {
-    /// Equation (3), where the specific force is near gravity.
-    fn up(&self, specific_force: DVec3) -> Option<DVec3> {
-        let off = (specific_force.length() - GRAVITY).abs();
-        (off <= self.trust * GRAVITY)
-            .then(|| specific_force.try_normalize())
-            .flatten()
     }
 }
 
