@@ -129,7 +129,7 @@ const MODELS: &[Refusal] = &[
     (
         "<gyro name=\"Gyrometer\" site=\"imu\"/>",
         "<gyro name=\"Gyrometer\" site=\"imu\" nsample=\"100000000\"/>",
-        "nao/robot.xml:246:40: nsample of <gyro> is not read here: a sensor has a name and a site; its noise is in robot.toml",
+        "nao/robot.xml:246:39: nsample of <gyro> is not read here: a sensor has a name and a site; its noise is in robot.toml",
     ),
     (
         "<gyro name=\"Gyrometer\" site=\"imu\"/>",

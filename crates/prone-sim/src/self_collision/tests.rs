@@ -159,7 +159,10 @@ fn limit_an_arm_through_the_head_collides() {
             let roll = -0.06 * f64::from(step);
             posture(
                 world.robot(),
-                &[("LShoulderPitch", -1.5708), ("LShoulderRoll", roll)],
+                &[
+                    ("LShoulderPitch", -std::f64::consts::FRAC_PI_2),
+                    ("LShoulderRoll", roll),
+                ],
             )
         })
         .collect();
