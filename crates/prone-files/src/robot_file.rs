@@ -38,6 +38,8 @@ pub struct RobotFile {
     pub postures: BTreeMap<String, BTreeMap<Name, f64>>,
     /// The torque study.
     pub study: StudyTable,
+    /// The inertial measurement unit.
+    pub imu: Option<ImuTable>,
 }
 
 /// `[chain]`
@@ -163,6 +165,22 @@ pub struct StudyTable {
     /// Joint ranges that replace the maker's, rad.
     #[serde(default, deserialize_with = "ranges")]
     pub stops_rad: BTreeMap<Name, [f64; 2]>,
+}
+
+/// `[imu]`
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ImuTable {
+    /// Site of the model's accelerometer and gyro.
+    pub site: Name,
+    /// Standard deviation of a sample, m/s².
+    pub accelerometer_noise_m_s2: f64,
+    /// Largest constant bias of an axis, m/s².
+    pub accelerometer_bias_m_s2: f64,
+    /// Standard deviation of a sample, rad/s.
+    pub gyroscope_noise_rad_s: f64,
+    /// Largest constant bias of an axis, rad/s.
+    pub gyroscope_bias_rad_s: f64,
 }
 
 impl RobotFile {

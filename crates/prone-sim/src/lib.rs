@@ -2,8 +2,9 @@
 //!
 //! [`LoadedRobot`] turns a robot's two files into [`prone::robot::Robot`]; a [`World`] puts it on a floor
 //! under a named contact [`regime`]; a [`Simulation`] steps it with the servo law of the published
-//! study; [`pull`] runs one closed-chain phase and records it, [`crawl`] whole cycles; [`camera`] takes pictures on the
-//! CPU.
+//! study; [`pull`] runs one closed-chain phase and records it, [`crawl`] whole cycles; [`camera`]
+//! takes pictures on the CPU. [`imu`] is what the robot feels of its attitude; [`self_collision`]
+//! tells how near its limbs come to one another.
 //!
 //! The engine's model is shared, its data belongs to one run: runs on any number of threads give
 //! the same bits.
@@ -11,9 +12,11 @@
 pub mod camera;
 pub mod crawl;
 mod engine_log;
+pub mod imu;
 mod load;
 pub mod pull;
 pub mod regime;
+pub mod self_collision;
 pub mod settled;
 mod simulation;
 mod world;

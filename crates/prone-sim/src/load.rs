@@ -8,6 +8,7 @@
 mod bounds;
 mod files;
 mod foreign;
+mod imu;
 mod limbs;
 mod markup;
 mod model;

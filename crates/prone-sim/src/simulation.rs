@@ -104,6 +104,18 @@ impl<'w> Simulation<'w> {
     /// # Errors
     /// [`SimulationError::Diverged`].
     pub fn control_step(&mut self) -> Result<StepMeans, SimulationError> {
+        self.control_step_with(|_| ())
+    }
+
+    /// One control step, with a look after each of its engine steps: for [`crate::imu`], which
+    /// misses jolts when it reads once per control step.
+    ///
+    /// # Errors
+    /// [`SimulationError::Diverged`].
+    pub fn control_step_with(
+        &mut self,
+        mut after_engine_step: impl FnMut(&Self),
+    ) -> Result<StepMeans, SimulationError> {
         let mut means = StepMeans {
             actuator_torque: vec![0.0; self.reference.len()],
             contact: [0.0; 4],
@@ -111,6 +123,7 @@ impl<'w> Simulation<'w> {
         let steps = self.world.regime().steps_in(CONTROL_STEP);
         for _ in 0..steps {
             self.step();
+            after_engine_step(self);
             for (sum, torque) in means
                 .actuator_torque
                 .iter_mut()
@@ -230,6 +243,11 @@ impl<'w> Simulation<'w> {
     /// The position now, for [`crate::camera`].
     pub fn snapshot(&self) -> Snapshot {
         Snapshot(self.data.qpos().to_vec())
+    }
+
+    /// The readings of the model's sensors, as of the beginning of the last engine step.
+    pub(crate) fn sensor_readings(&self) -> &[f64] {
+        self.data.sensordata()
     }
 
     /// The engine's own data, to go on without this crate's servos and records.

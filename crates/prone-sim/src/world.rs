@@ -85,6 +85,11 @@ impl World {
         &self.robot
     }
 
+    /// The robot, for what outlives the world.
+    pub(crate) fn shared_robot(&self) -> Arc<Robot> {
+        Arc::clone(&self.robot)
+    }
+
     /// The contact regime.
     pub const fn regime(&self) -> &Regime {
         &self.regime

@@ -118,8 +118,28 @@ const MODELS: &[Refusal] = &[
     ),
     (
         "<asset>",
-        "<sensor/><asset>",
-        "nao/robot.xml:34:3: <sensor> is not read here: a robot needs none",
+        "<tendon/><asset>",
+        "nao/robot.xml:34:3: <tendon> is not read here: a robot needs none",
+    ),
+    (
+        "<gyro name=\"Gyrometer\" site=\"imu\"/>",
+        "<touch site=\"imu\"/>",
+        "nao/robot.xml:246:5: <touch> is not read here: a robot needs none",
+    ),
+    (
+        "<gyro name=\"Gyrometer\" site=\"imu\"/>",
+        "<gyro name=\"Gyrometer\" site=\"imu\" nsample=\"100000000\"/>",
+        "nao/robot.xml:246:39: nsample of <gyro> is not read here: a sensor has a name and a site; its noise is in robot.toml",
+    ),
+    (
+        "<gyro name=\"Gyrometer\" site=\"imu\"/>",
+        "",
+        "nao/robot.toml:346:8: nao/robot.xml has no gyro at site imu",
+    ),
+    (
+        "<accelerometer name=\"Accelerometer\" site=\"imu\"/>",
+        "<accelerometer name=\"Accelerometer\" site=\"LToe\"/>",
+        "nao/robot.toml:346:8: nao/robot.xml has no accelerometer at site imu",
     ),
     (
         "<mujoco model",
@@ -335,6 +355,26 @@ const TABLES: &[Refusal] = &[
         "LHipPitch = 0.4712",
         "LHipPitch = nan",
         "nao/robot.toml:152:1: LHipPitch must be within -2π..2π rad, not NaN",
+    ),
+    (
+        "site = \"imu\"",
+        "site = \"inu\"",
+        "nao/robot.toml:346:8: site inu is not in nao/robot.xml; did you mean imu?",
+    ),
+    (
+        "site = \"imu\"",
+        "site = \"LToe\"",
+        "nao/robot.toml:346:8: site LToe is on LFoot; the inertial unit must be on the root torso",
+    ),
+    (
+        "gyroscope_noise_rad_s = 0.0009",
+        "gyroscope_noise_rad_s = -0.0009",
+        "nao/robot.toml:346:8: gyroscope_noise_rad_s must be within 0..10, not -0.0009",
+    ),
+    (
+        "accelerometer_bias_m_s2 = 0.05",
+        "accelerometer_bias_m_s2 = nan",
+        "nao/robot.toml:346:8: accelerometer_bias_m_s2 must be within 0..100, not NaN",
     ),
 ];
 

@@ -34,11 +34,15 @@ pub enum Link {}
 /// Fixed to one collision primitive, long axis along z; which one is said beside the value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Geom {}
+/// Fixed to the inertial measurement unit, along its own axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Sensor {}
 
 impl Frame for Ground {}
 impl Frame for Root {}
 impl Frame for Link {}
 impl Frame for Geom {}
+impl Frame for Sensor {}
 
 /// A point in frame `F`, metres.
 #[derive(Debug, Clone, Copy, PartialEq)]

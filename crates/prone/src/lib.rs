@@ -4,7 +4,8 @@
 //! chain. This crate holds that chain ([`chain`]), the curves that steer it ([`gait`]), the way
 //! from chain angles to a robot's joints ([`mapping`]), the robot as data ([`robot`]), the torques
 //! that hold it still ([`statics`]) or that a table knows ([`torque_map`]), what a crawl costs
-//! ([`cost`]) and how it keeps its line ([`steering`]).
+//! ([`cost`]) and how it keeps its line ([`steering`]). Which way is up, as its inertial unit tells,
+//! is in [`attitude`].
 //!
 //! It reads no file, no clock and no random number, and knows no particular robot: files are
 //! read by `prone-files`, the robot's shape comes from its MJCF through `prone-sim`.
@@ -12,6 +13,7 @@
 //! Inside: `f64`, SI units, radians. Frames are in the types ([`frames`]): a transform is named
 //! and typed `target_from_source`, so that neighbours cancel.
 
+pub mod attitude;
 pub mod chain;
 pub mod cost;
 pub mod frames;

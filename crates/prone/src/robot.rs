@@ -3,12 +3,14 @@
 //! Nothing here knows a particular robot. `prone-sim` fills [`Robot`] from an MJCF model and a
 //! `robot.toml`. The value is immutable once loaded; algorithms are functions over `&Robot`.
 
+mod imu;
 mod kinematics;
 mod mirror;
 mod shape;
 #[cfg(test)]
 pub(crate) mod testing;
 
+pub use imu::{Imu, SensorNoise};
 pub use kinematics::BodyPoses;
 pub use mirror::{Mirror, Twin};
 pub use shape::{Shape, Solid};
@@ -46,6 +48,8 @@ pub struct Robot {
     pub postures: BTreeMap<String, JointAngles>,
     /// How the torque study treats this robot.
     pub study: StudySetup,
+    /// Its inertial measurement unit, where it has one.
+    pub imu: Option<Imu>,
 }
 
 /// One rigid body.

@@ -21,6 +21,10 @@ pub(super) const SPEED: f64 = 1e3;
 pub(super) const GAIN: f64 = 1e4;
 /// Largest gear ratio.
 pub(super) const RATIO: f64 = 1e5;
+/// Largest noise and bias of an accelerometer, m/s²: what a saturated part reads, 10 g.
+pub(super) const ACCELERATION: f64 = 100.0;
+/// Largest noise and bias of a gyroscope, rad/s.
+pub(super) const TURN_RATE: f64 = 10.0;
 /// Largest torque of a motor at its shaft, N·m.
 pub(super) const SHAFT_TORQUE: f64 = 1e3;
 

@@ -9,7 +9,8 @@ use roxmltree::{Attribute, Document, Node, TextPos};
 use prone_files::FileError;
 
 /// Elements of a model.
-const ELEMENTS: [&str; 36] = [
+const ELEMENTS: [&str; 39] = [
+    "accelerometer",
     "asset",
     "body",
     "camera",
@@ -24,6 +25,7 @@ const ELEMENTS: [&str; 36] = [
     "freejoint",
     "geom",
     "global",
+    "gyro",
     "headlight",
     "inertial",
     "joint",
@@ -36,6 +38,7 @@ const ELEMENTS: [&str; 36] = [
     "quality",
     "rgba",
     "scale",
+    "sensor",
     "site",
     "statistic",
     "visual",
@@ -50,13 +53,14 @@ const ELEMENTS: [&str; 36] = [
 ];
 
 /// Attributes that hold a name, which may look like a number.
-const NAMES: [&str; 15] = [
+const NAMES: [&str; 16] = [
     "name",
     "class",
     "childclass",
     "dclass",
     "material",
     "model",
+    "site",
     "target",
     "body1",
     "body2",
@@ -67,6 +71,11 @@ const NAMES: [&str; 15] = [
     "site1",
     "site2",
 ];
+
+/// The sensors of an inertial unit, and all that may be said of one. What else the engine reads of
+/// a sensor is memory (a history of samples), or what the program adds (noise).
+const SENSORS: [&str; 2] = ["accelerometer", "gyro"];
+const SENSOR_ATTRIBUTES: [&str; 2] = ["name", "site"];
 
 /// Largest number in a model. Units differ, so this is no physical bound: those are checked on
 /// what the engine makes of the text.
@@ -94,7 +103,8 @@ pub(super) fn check(file: &str, text: &str) -> Result<(), FileError> {
             return Err(error(at(node.range().start), message));
         }
         for attribute in node.attributes() {
-            check_attribute(&attribute)
+            check_sensor_attribute(node.tag_name().name(), &attribute)
+                .and_then(|()| check_attribute(&attribute))
                 .map_err(|message| error(at(attribute.range().start), message))?;
         }
     }
@@ -130,6 +140,16 @@ fn refusal(node: &Node) -> Option<&'static str> {
         _ => "a robot needs none",
     };
     Some(reason)
+}
+
+fn check_sensor_attribute(element: &str, attribute: &Attribute) -> Result<(), String> {
+    let name = attribute.name();
+    if !SENSORS.contains(&element) || SENSOR_ATTRIBUTES.contains(&name) {
+        return Ok(());
+    }
+    Err(format!(
+        "{name} of <{element}> is not read here: a sensor has a name and a site; its noise is in robot.toml"
+    ))
 }
 
 fn check_attribute(attribute: &Attribute) -> Result<(), String> {

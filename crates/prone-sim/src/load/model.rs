@@ -17,6 +17,16 @@ pub(super) struct Parts {
     pub(super) joints: Vec<Joint>,
     pub(super) shapes: Vec<Shape>,
     pub(super) sites: BTreeMap<String, (BodyId, Point<Link>)>,
+    /// What is measured at each site that has a sensor.
+    pub(super) sensors: BTreeMap<String, SiteSensors>,
+}
+
+/// The sensors at one site.
+pub(super) struct SiteSensors {
+    /// The sensors' axes in the site's body.
+    pub(super) link_from_sensor: DQuat,
+    pub(super) accelerometer: bool,
+    pub(super) gyroscope: bool,
 }
 
 /// The engine's body 0 is the world and its joint 0 the free one: ours start after them.
@@ -35,6 +45,7 @@ pub(super) fn read(model: &MjModel) -> Result<Parts, ModelProblem> {
         joints,
         shapes: read_shapes(model)?,
         sites: read_sites(model),
+        sensors: read_sensors(model),
     })
 }
 
@@ -170,6 +181,32 @@ fn read_sites(model: &MjModel) -> BTreeMap<String, (BodyId, Point<Link>)> {
         if let (Some(body), Some(name)) = (body, name) {
             let point = Point::new(DVec3::from_array(model.site_pos()[index]));
             sites.insert(name.to_owned(), (BodyId(body), point));
+        }
+    }
+    sites
+}
+
+fn read_sensors(model: &MjModel) -> BTreeMap<String, SiteSensors> {
+    let mut sites = BTreeMap::<String, SiteSensors>::new();
+    for (kind, &site) in model.sensor_type().iter().zip(model.sensor_objid()) {
+        let Ok(site) = usize::try_from(site) else {
+            continue;
+        };
+        let Some(name) = model.id_to_name(MjtObjBase::mjOBJ_SITE, site) else {
+            continue;
+        };
+        let sensors = sites.entry(name.to_owned()).or_insert_with(|| {
+            let [w, x, y, z] = model.site_quat()[site];
+            SiteSensors {
+                link_from_sensor: DQuat::from_xyzw(x, y, z, w).normalize(),
+                accelerometer: false,
+                gyroscope: false,
+            }
+        });
+        match kind {
+            MjtSensor::mjSENS_ACCELEROMETER => sensors.accelerometer = true,
+            MjtSensor::mjSENS_GYRO => sensors.gyroscope = true,
+            _ => {}
         }
     }
     sites

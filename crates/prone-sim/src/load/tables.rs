@@ -20,7 +20,7 @@ use prone_files::robot_file::{
 };
 
 use super::model::Parts;
-use super::{bounds, limbs};
+use super::{bounds, imu, limbs};
 
 /// The TOML file that errors point into, and the model's name for their text.
 pub(super) struct Tables<'a> {
@@ -35,6 +35,10 @@ impl Tables<'_> {
         self.equip_joints(&table.drives, &table.motors, &mut parts)?;
         let chain = self.chain(&table.chain, &parts)?;
         let study = self.study(&table.study, &table.postures, &parts)?;
+        let imu = match &table.imu {
+            None => None,
+            Some(imu) => Some(imu::read(self, imu, &parts)?),
+        };
         let mut robot = Robot {
             name: table.name,
             bodies: parts.bodies,
@@ -43,6 +47,7 @@ impl Tables<'_> {
             chain,
             postures: BTreeMap::new(),
             study,
+            imu,
         };
         robot.postures = self.postures(&table.postures, &robot)?;
         limbs::check(&robot, &table.chain)
@@ -53,7 +58,7 @@ impl Tables<'_> {
         Ok(robot)
     }
 
-    fn error(&self, place: &Name, message: impl Display) -> FileError {
+    pub(super) fn error(&self, place: &Name, message: impl Display) -> FileError {
         RobotFile::error_at(self.file, self.text, place, &message.to_string())
     }
 
@@ -96,7 +101,11 @@ impl Tables<'_> {
             .ok_or_else(|| self.unknown(name, "body", parts.bodies.iter().map(|b| b.name.as_str())))
     }
 
-    fn site(&self, name: &Name, parts: &Parts) -> Result<(BodyId, Point<Link>), FileError> {
+    pub(super) fn site(
+        &self,
+        name: &Name,
+        parts: &Parts,
+    ) -> Result<(BodyId, Point<Link>), FileError> {
         parts
             .sites
             .get(name.get_ref())

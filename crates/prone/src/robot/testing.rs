@@ -157,6 +157,7 @@ pub(crate) fn two_armed() -> Robot {
             start_posture: "zero".to_owned(),
             stops: Vec::new(),
         },
+        imu: None,
     };
     let zero = JointAngles::zero(&robot);
     robot.postures.insert("zero".to_owned(), zero);

@@ -1,0 +1,267 @@
+use glam::DVec3;
+
+use prone::frames::{Root, Transform};
+use prone::robot::Solid;
+use prone_files::shipped;
+
+use super::*;
+use crate::{LoadedRobot, Regime, RobotFiles};
+
+fn nao() -> World {
+    let loaded = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
+    World::new(&loaded, Regime::LOCOMOTION).unwrap()
+}
+
+fn posture(robot: &Robot, angles: &[(&str, f64)]) -> JointAngles {
+    let mut posture = JointAngles::zero(robot);
+    for (name, angle) in angles {
+        posture[robot.joint(name).unwrap()] = *angle;
+    }
+    posture
+}
+
+#[test]
+fn identity_limbs_of_the_shipped_robot() {
+    let world = nao();
+    let robot = world.robot();
+    let limbs = limbs(robot);
+    for (body, limb) in [
+        ("torso", None),
+        ("Neck", Some(Limb::Head)),
+        ("Head", Some(Limb::Head)),
+        ("LPelvis", Some(Limb::LeftLeg)),
+        ("LFoot", Some(Limb::LeftLeg)),
+        ("RThigh", Some(Limb::RightLeg)),
+        ("LShoulder", Some(Limb::LeftArm)),
+        ("LHand", Some(Limb::LeftArm)),
+        ("RForearm", Some(Limb::RightArm)),
+    ] {
+        assert_eq!(limbs[robot.body(body).unwrap().0], limb, "{body}");
+    }
+    // Arms of 4 shapes, legs of 5, one skull: 2·4·1 + 4·4 + 5·5 + 4·4·5.
+    assert_eq!(SelfCollision::new(&world).unwrap().pairs.len(), 129);
+}
+
+/// Three postures overlap: two where the heels meet, which the model has as corners of boxes, and
+/// one whose hands lie on the shins.
+#[test]
+fn regression_shipped_postures() {
+    let world = nao();
+    let mut check = SelfCollision::new(&world).unwrap();
+    let zero = JointAngles::zero(world.robot());
+    for (name, distance_mm, one, other) in [
+        // Toes out by 9°, ankles 75 mm apart: the square heels cross the middle by 11 mm each.
+        ("crouch", -15.537, "LSole", "RSole"),
+        ("lying-back", -3.116, "LSole", "RSole"),
+        ("lying-belly", 12.127, "LHandShell", "Skull"),
+        ("recorded-start", 23.0, "LSole", "RSole"),
+        ("sit", -0.398, "RHandShell", "RShinShell"),
+        ("sit-relax", 16.689, "LPelvisBall", "RPelvisBall"),
+        ("stand", 21.579, "LPelvisBall", "RPelvisBall"),
+        ("stand-init", 23.0, "LSole", "RSole"),
+        ("stand-zero", 23.0, "LSole", "RSole"),
+        // 100 mm between the ankles, less twice 42 − 3.5 mm of sole.
+        ("zero", 23.0, "LSole", "RSole"),
+    ] {
+        let angles = world.robot().postures.get(name).unwrap_or(&zero);
+        let closest = check.closest(angles).unwrap();
+        assert_eq!(closest.shapes, (one.to_owned(), other.to_owned()), "{name}");
+        let off = (closest.distance_m * 1e3 - distance_mm).abs();
+        // Half of the last digit, and what the engine iterates to.
+        assert!(off < 2e-3, "{name}: {closest:?}");
+    }
+    assert_eq!(world.robot().postures.len(), 9, "each is listed above");
+}
+
+/// The segment distance of two capsules by minimising over both axes on a grid that shrinks, with
+/// poses from this program's own kinematics.
+fn capsule_distance(robot: &Robot, angles: &JointAngles, names: [&str; 2]) -> f64 {
+    let poses = robot.forward_kinematics(Transform::<Root, Root>::translation(DVec3::ZERO), angles);
+    let [(a, b, r), (c, d, q)] = names.map(|name| {
+        let shape = robot
+            .shapes
+            .iter()
+            .find(|shape| shape.name == name)
+            .unwrap();
+        let Solid::Capsule {
+            radius,
+            half_length,
+        } = shape.solid
+        else {
+            panic!("{name} is no capsule")
+        };
+        let root_from_geom = *poses.of(shape.body) * shape.link_from_geom;
+        let axis = half_length * root_from_geom.rotate(DVec3::Z);
+        let centre = root_from_geom.origin().metres();
+        (centre - axis, centre + axis, radius)
+    });
+    let gap = |s: f64, t: f64| (a.lerp(b, s) - c.lerp(d, t)).length();
+    let (mut s, mut t, mut width) = (0.5, 0.5, 0.5);
+    while width > 1e-9 {
+        let steps = (-10..=10).map(|k| f64::from(k) / 10.0 * width);
+        let grid = steps
+            .clone()
+            .flat_map(|i| steps.clone().map(move |j| (i, j)))
+            .map(|(i, j)| ((s + i).clamp(0.0, 1.0), (t + j).clamp(0.0, 1.0)));
+        (s, t) = grid
+            .min_by(|one, other| gap(one.0, one.1).total_cmp(&gap(other.0, other.1)))
+            .unwrap();
+        width *= 0.5;
+    }
+    gap(s, t) - r - q
+}
+
+fn engine_distance(check: &mut SelfCollision, angles: &JointAngles, names: [&str; 2]) -> f64 {
+    let scan = check.scan([angles], f64::INFINITY).unwrap();
+    let mut pairs = scan.within_margin.iter();
+    let pair = pairs.find(|near| {
+        let (one, other) = &near.closest.shapes;
+        [one.as_str(), other.as_str()] == names
+    });
+    pair.unwrap().closest.distance_m
+}
+
+#[test]
+fn identity_capsules_are_as_far_apart_as_their_axes_say() {
+    let world = nao();
+    let robot = world.robot();
+    let mut check = SelfCollision::new(&world).unwrap();
+    let mut postures: Vec<JointAngles> = robot.postures.values().cloned().collect();
+    postures.push(JointAngles::zero(robot));
+    postures.push(posture(
+        robot,
+        &[("LShoulderRoll", -0.3), ("RShoulderRoll", 0.2)],
+    ));
+    postures.push(posture(robot, &[("LHipRoll", -0.37), ("RHipRoll", 0.1)]));
+    for angles in &postures {
+        for names in [
+            ["LThighShell", "RThighShell"],
+            ["LShinShell", "RShinShell"],
+            ["LForearmShell", "RForearmShell"],
+            ["LHandShell", "RHandShell"],
+            ["LHandShell", "LThighShell"],
+            ["RForearmShell", "RShinShell"],
+        ] {
+            let ours = capsule_distance(robot, angles, names);
+            let engine = engine_distance(&mut check, angles, names);
+            assert!((ours - engine).abs() < 1e-8, "{names:?}: {ours} {engine}");
+        }
+    }
+}
+
+/// The arm is raised beside the head (pitch −π/2) and rolled inwards, past its stop.
+#[test]
+fn limit_an_arm_through_the_head_collides() {
+    let world = nao();
+    let mut check = SelfCollision::new(&world).unwrap();
+    let swing: Vec<JointAngles> = (0..=20)
+        .map(|step| {
+            let roll = -0.06 * f64::from(step);
+            posture(
+                world.robot(),
+                &[
+                    ("LShoulderPitch", -std::f64::consts::FRAC_PI_2),
+                    ("LShoulderRoll", roll),
+                ],
+            )
+        })
+        .collect();
+    let start = check.closest(&swing[0]).unwrap();
+    assert!(start.distance_m > 0.0, "{start:?}");
+    let scan = check.scan(&swing, 0.0).unwrap();
+    assert!(scan.closest.closest.distance_m < -0.02);
+    assert!(scan.closest.index > 0);
+    let (arm, head) = &scan.closest.closest.shapes;
+    assert!(arm.starts_with('L') && head == "Skull", "{arm} {head}");
+    assert!(
+        scan.within_margin
+            .iter()
+            .all(|near| near.closest.distance_m < 0.0)
+    );
+    assert_eq!(scan.within_margin[0], scan.closest);
+    // At that posture alone it is the same.
+    let alone = check.closest(&swing[scan.closest.index]).unwrap();
+    assert_eq!(alone, scan.closest.closest);
+}
+
+#[test]
+fn limit_crossing_legs_collide() {
+    let world = nao();
+    let mut check = SelfCollision::new(&world).unwrap();
+    let crossed = posture(world.robot(), &[("LHipRoll", -0.3), ("RHipRoll", 0.3)]);
+    let closest = check.closest(&crossed).unwrap();
+    assert!(closest.distance_m < -0.01, "{closest:?}");
+    let (left, right) = &closest.shapes;
+    assert!(
+        left.starts_with('L') && right.starts_with('R'),
+        "{left} {right}"
+    );
+}
+
+/// Mirrored joints: roll, yaw and the head's yaw change sign, pitch does not.
+#[test]
+fn identity_left_mirrors_right() {
+    let world = nao();
+    let robot = world.robot();
+    let mut check = SelfCollision::new(&world).unwrap();
+    let mirror = |angles: &JointAngles| {
+        let mut mirrored = JointAngles::zero(robot);
+        for (index, joint) in robot.joints.iter().enumerate() {
+            let name = &joint.name;
+            let twin = match name.split_at(1) {
+                ("L", rest) => format!("R{rest}"),
+                ("R", rest) => format!("L{rest}"),
+                _ => name.clone(),
+            };
+            let same = name.ends_with("Pitch");
+            let sign = if same { 1.0 } else { -1.0 };
+            mirrored[robot.joint(&twin).unwrap()] = sign * angles[JointId(index)];
+        }
+        mirrored
+    };
+    let side = |name: &str| match name.split_at(1) {
+        ("L", rest) => format!("R{rest}"),
+        ("R", rest) => format!("L{rest}"),
+        _ => name.to_owned(),
+    };
+    for (name, angles) in &robot.postures {
+        let mirrored = mirror(angles);
+        let scan = check.scan([angles], f64::INFINITY).unwrap();
+        for near in &scan.within_margin {
+            let (one, other) = &near.closest.shapes;
+            let (one_twin, other_twin) = (side(one), side(other));
+            let twin = check.scan([&mirrored], f64::INFINITY).unwrap();
+            let twin = twin
+                .within_margin
+                .iter()
+                .find(|near| {
+                    let (a, b) = &near.closest.shapes;
+                    (*a == one_twin && *b == other_twin) || (*a == other_twin && *b == one_twin)
+                })
+                .unwrap();
+            let off = (twin.closest.distance_m - near.closest.distance_m).abs();
+            // What the engine iterates to.
+            assert!(off < 1e-5, "{name}: {one} {other}, off by {off} m");
+        }
+    }
+}
+
+#[test]
+fn limit_what_is_no_posture_is_refused() {
+    let world = nao();
+    let mut check = SelfCollision::new(&world).unwrap();
+    let bad = posture(world.robot(), &[("LKneePitch", f64::NAN)]);
+    assert_eq!(
+        check.closest(&bad).unwrap_err().to_string(),
+        "LKneePitch NaN rad at posture 0 is no angle"
+    );
+    let short = JointAngles::from_vec(vec![0.0; 3]);
+    assert_eq!(
+        check.closest(&short).unwrap_err().to_string(),
+        "posture 0 has 3 joint angles, robot NAO H25 V4 has 24 joints"
+    );
+    assert_eq!(
+        check.scan([], 0.0).unwrap_err(),
+        SelfCollisionError::NoPostures
+    );
+}
