@@ -36,6 +36,8 @@ pub struct CovarianceMatrixOptions {
     pub doublings: u32,
     /// First standard deviation, widths of the bounds.
     pub step: f64,
+    /// Share of the bounds, about their middle, in which the first means lie; 1 is all of them.
+    pub middle: f64,
     /// Most evaluations of one search.
     pub evaluations_per_search: usize,
     /// What a unit of violation weighs against the value in (1).
@@ -48,6 +50,7 @@ impl Default for CovarianceMatrixOptions {
             population: 12,
             doublings: 3,
             step: 0.2,
+            middle: 1.0,
             evaluations_per_search: 10_000,
             violation_weight: 1000.0,
         }
@@ -89,7 +92,9 @@ impl CovarianceMatrix {
         let doublings = self.searches % (u64::from(self.options.doublings) + 1);
         self.searches += 1;
         Search {
-            mean: (0..variables).map(|_| self.random.uniform()).collect(),
+            mean: (0..variables)
+                .map(|_| 0.5 + self.options.middle * (self.random.uniform() - 0.5))
+                .collect(),
             step: self.options.step,
             population: self.options.population.max(4) << doublings,
             seed: self.random.seed(),

@@ -110,6 +110,12 @@ impl Regime {
         Self { time_step, ..self }
     }
 
+    /// The same with another friction.
+    #[must_use]
+    pub const fn with_friction(self, friction: f64) -> Self {
+        Self { friction, ..self }
+    }
+
     /// The same with other servo gains.
     #[must_use]
     pub const fn with_servo(self, servo: Servo) -> Self {

@@ -5,6 +5,7 @@
 
 pub mod agreement;
 pub mod contact_story;
+pub mod cycle_search;
 pub mod figures;
 pub mod frames;
 pub mod gait_sheet;

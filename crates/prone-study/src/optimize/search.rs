@@ -99,6 +99,23 @@ impl Search {
         }
     }
 
+    /// The same by CMA-ES from about the middle of the bounds, where a good point is known: narrow
+    /// first steps, and no larger populations, which would look far away.
+    pub fn about_the_middle(seed: u64, runs: u64, budget: u64) -> Self {
+        let options = CovarianceMatrixOptions {
+            population: 16,
+            doublings: 0,
+            step: 0.12,
+            middle: 0.2,
+            ..CovarianceMatrixOptions::default()
+        };
+        let mut search = Self::new(Solver::CovarianceMatrix, seed, runs, budget);
+        for run in &mut search.runs {
+            run.state = State::CovarianceMatrix(Run::new(CovarianceMatrix::new(options, run.seed)));
+        }
+        search
+    }
+
     /// Allows each run more evaluations: those that ended for want of them go on, to what a search
     /// with that budget from the start would have found.
     ///

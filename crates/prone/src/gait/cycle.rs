@@ -48,8 +48,10 @@ pub struct Waypoint {
     pub name: String,
     /// How it is reached.
     pub approach: Approach,
-    /// Joint angles, rad. Those not named stay where they are; but what a turn moved beside the
-    /// arms goes back to zero with the first waypoint.
+    /// Joint angles, rad. Those not named stay where they are.
+    ///
+    /// The first waypoint keeps what a turn has added to the arms, as they may still be planted;
+    /// what it has moved beside them goes back to zero there.
     pub joints: BTreeMap<String, f64>,
 }
 

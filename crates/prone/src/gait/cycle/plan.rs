@@ -175,7 +175,15 @@ impl CheckedCycle {
         })?;
         let pull = planner.pull(duration, turn)?;
         let mut clamps = pull.clamps().to_vec();
-        let mut stretches = planner.waypoints(scale, &mut clamps)?;
+        let aside = if turn == 0.0 {
+            None
+        } else {
+            Some(Aside {
+                turned: last(&pull).clone(),
+                straight: last(&planner.pull(duration, 0.0)?).clone(),
+            })
+        };
+        let mut stretches = planner.waypoints(scale, aside.as_ref(), &mut clamps)?;
         stretches.push(Stretch {
             name: "extension".to_owned(),
             approach: planner.scaled("extension", cycle.approach, scale)?,
@@ -375,6 +383,12 @@ fn last(pull: &CheckedTrajectory) -> &JointAngles {
     &samples[samples.len() - 1].joints
 }
 
+/// Where a pull with a turn ends, and where it would have ended without.
+struct Aside {
+    turned: JointAngles,
+    straight: JointAngles,
+}
+
 struct Planner<'a> {
     robot: &'a Robot,
     stops: &'a [Range],
@@ -453,6 +467,7 @@ impl Planner<'_> {
     fn waypoints(
         &self,
         scale: TimeScale,
+        aside: Option<&Aside>,
         clamps: &mut Vec<Clamp>,
     ) -> Result<Vec<Stretch>, CycleError> {
         let mut stretches = Vec::with_capacity(self.cycle.recovery.len() + 1);
@@ -460,13 +475,25 @@ impl Planner<'_> {
             let place = format!("waypoint {}", waypoint.name);
             let mut targets = vec![None; self.robot.joints.len()];
             if let (0, Some(steering)) = (index, &self.cycle.steering) {
-                // A turn's joints go back; the arms stay, as they are planted.
+                // A turn's joints go back; the arms are still planted and keep what it added.
                 for name in steering.joints.keys() {
                     targets[self.joint("steering", name)?.0] = Some(0.0);
                 }
             }
+            let turned: Vec<JointId> = match &self.cycle.steering {
+                Some(steering) => steering
+                    .joints
+                    .keys()
+                    .filter_map(|name| self.robot.joint(name))
+                    .collect(),
+                None => Vec::new(),
+            };
             for (joint, sign, &angle) in self.with_twins(&place, &waypoint.joints)? {
-                targets[joint.0] = Some(self.within_stop(&place, joint, sign * angle, clamps)?);
+                let mut angle = sign * angle;
+                if let (0, Some(aside)) = (index, aside.filter(|_| !turned.contains(&joint))) {
+                    angle += aside.turned[joint] - aside.straight[joint];
+                }
+                targets[joint.0] = Some(self.within_stop(&place, joint, angle, clamps)?);
             }
             stretches.push(Stretch {
                 name: waypoint.name.clone(),

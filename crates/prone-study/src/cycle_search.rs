@@ -1,0 +1,39 @@
+//! Searching whole cycles in the locomotion regime.
+//!
+//! [`form`] makes cycles of numbers, [`price`] prices them by simulation, an optimiser of
+//! `prone-optim` searches over both.
+
+pub mod form;
+pub mod price;
+
+use prone_optim::{Interval, Problem, Score};
+
+use form::CycleForm;
+use price::CyclePricer;
+
+/// What an optimiser sees of a cycle.
+pub struct CycleProblem<'a> {
+    /// Points to cycles.
+    pub form: &'a CycleForm,
+    /// Cycles to prices.
+    pub pricer: &'a CyclePricer<'a>,
+}
+
+impl Problem for CycleProblem<'_> {
+    fn bounds(&self) -> &[Interval] {
+        self.form.bounds()
+    }
+
+    fn evaluate(&self, point: &[f64]) -> Score {
+        let Ok(cycle) = self.form.cycle(point) else {
+            return Score::new(f64::MAX, 0.0);
+        };
+        let price = self.pricer.price(&cycle);
+        let value = if price.value.is_nan() {
+            0.0
+        } else {
+            price.value
+        };
+        Score::new(price.violation, value)
+    }
+}

@@ -1,0 +1,259 @@
+//! Whole cycles as boxes of numbers.
+//!
+//! The box lies about a cycle that crawls already, its middle: knee, hip, upper arm and the other
+//! joints of the pull at their ends and in the middle of the phase, then the waypoints' joints and
+//! the times. A waypoint's joints are those that a cycle's recovery moves at all; a joint that the
+//! middle's waypoint does not name is free there too, about where it stays.
+
+use std::collections::BTreeMap;
+
+use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale};
+use prone::gait::{Curve, CurveError, PhaseDuration};
+use prone::robot::{Mirror, Range, Robot};
+use prone_optim::{Interval, IntervalError};
+
+/// How far the curves of the pull may move from the middle, rad.
+const CURVE_REACH: f64 = 0.35;
+/// How far a waypoint's joints may, rad.
+const JOINT_REACH: f64 = 0.5;
+/// By which factor times may.
+const TIME_REACH: f64 = 1.4;
+/// Least and greatest upper-arm angle of a pull, rad: the arm points down and not backwards.
+const UPPER_ARM: Range = Range {
+    lower: -1.75,
+    upper: -0.35,
+};
+
+/// Cycles about one.
+#[derive(Debug, Clone)]
+pub struct CycleForm {
+    middle: Cycle,
+    variables: Vec<Variable>,
+    bounds: Vec<Interval>,
+}
+
+/// What a number of a point is.
+#[derive(Debug, Clone, PartialEq)]
+enum Variable {
+    /// A curve of the pull at a phase.
+    Curve(PullCurve, usize),
+    /// A waypoint's joint.
+    Joint(usize, String),
+    /// A stretch's time; the pull's, then the waypoints', then the approach's.
+    Time(usize),
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum PullCurve {
+    Knee,
+    Hip,
+    UpperArm,
+    Company(String),
+}
+
+/// Phases at which a curve is free: a quadratic B-spline of three control points passes the first
+/// and the last and is drawn towards the second.
+const CONTROLS: usize = 3;
+
+/// Why there is no box about a cycle.
+#[derive(Debug, thiserror::Error)]
+pub enum CycleFormError {
+    /// The cycle itself cannot be crawled.
+    #[error(transparent)]
+    Cycle(#[from] CycleError),
+    /// It has an angle outside the box.
+    #[error("{variable}: {source}")]
+    Interval {
+        /// What it is.
+        variable: String,
+        /// Why it has no limits.
+        source: IntervalError,
+    },
+    /// It makes no curve.
+    #[error(transparent)]
+    Curve(#[from] CurveError),
+}
+
+impl CycleForm {
+    /// The box about a cycle that a robot can crawl.
+    ///
+    /// # Errors
+    /// [`CycleFormError`].
+    pub fn about(robot: &Robot, middle: &Cycle) -> Result<Self, CycleFormError> {
+        let middle = completed(robot, middle)?;
+        let mut form = Self {
+            middle,
+            variables: Vec::new(),
+            bounds: Vec::new(),
+        };
+        let middle = form.middle.clone();
+        for (which, curve, within) in [
+            (PullCurve::Knee, &middle.pull.knee, None),
+            (PullCurve::Hip, &middle.pull.hip, None),
+            (PullCurve::UpperArm, &middle.pull.upper_arm, Some(UPPER_ARM)),
+        ] {
+            form.curve(&which, curve, within)?;
+        }
+        for (joint, curve) in &middle.company {
+            let within = robot.joint(joint).map(|id| robot.joints[id.0].range);
+            form.curve(&PullCurve::Company(joint.clone()), curve, within)?;
+        }
+        for (index, waypoint) in middle.recovery.iter().enumerate() {
+            for (joint, &angle) in &waypoint.joints {
+                let range = robot.joint(joint).map(|id| robot.joints[id.0].range);
+                let range = range.unwrap_or(ANY);
+                form.add(
+                    Variable::Joint(index, joint.clone()),
+                    angle,
+                    JOINT_REACH,
+                    range,
+                )?;
+            }
+        }
+        for (index, seconds) in times(&middle).into_iter().enumerate() {
+            form.variables.push(Variable::Time(index));
+            let interval = Interval::new(seconds / TIME_REACH, seconds * TIME_REACH);
+            form.bounds
+                .push(interval.map_err(|source| CycleFormError::Interval {
+                    variable: format!("time {index}"),
+                    source,
+                })?);
+        }
+        Ok(form)
+    }
+
+    fn curve(
+        &mut self,
+        which: &PullCurve,
+        curve: &Curve,
+        within: Option<Range>,
+    ) -> Result<(), CycleFormError> {
+        for control in 0..CONTROLS {
+            let s = control as f64 / (CONTROLS - 1) as f64;
+            let variable = Variable::Curve(which.clone(), control);
+            self.add(variable, curve.value(s), CURVE_REACH, within.unwrap_or(ANY))?;
+        }
+        Ok(())
+    }
+
+    fn add(
+        &mut self,
+        variable: Variable,
+        middle: f64,
+        reach: f64,
+        within: Range,
+    ) -> Result<(), CycleFormError> {
+        let low = (middle - reach).max(within.lower);
+        let high = (middle + reach).min(within.upper);
+        let interval = Interval::new(low, high).map_err(|source| CycleFormError::Interval {
+            variable: format!("{variable:?}"),
+            source,
+        })?;
+        self.variables.push(variable);
+        self.bounds.push(interval);
+        Ok(())
+    }
+
+    /// Limits of each number.
+    pub fn bounds(&self) -> &[Interval] {
+        &self.bounds
+    }
+
+    /// The cycle of a point.
+    ///
+    /// # Errors
+    /// [`CurveError`], which points within the bounds do not produce.
+    pub fn cycle(&self, point: &[f64]) -> Result<Cycle, CurveError> {
+        let mut cycle = self.middle.clone();
+        let mut controls: Vec<(PullCurve, Vec<f64>)> = Vec::new();
+        for (variable, &value) in self.variables.iter().zip(point) {
+            match variable {
+                Variable::Curve(which, 0) => controls.push((which.clone(), vec![value])),
+                Variable::Curve(..) => {
+                    if let Some((_, values)) = controls.last_mut() {
+                        values.push(value);
+                    }
+                }
+                Variable::Joint(index, joint) => {
+                    cycle.recovery[*index].joints.insert(joint.clone(), value);
+                }
+                Variable::Time(0) => {
+                    // Within the bounds of a phase, as the middle is and the factor is small.
+                    if let Ok(duration) = PhaseDuration::new(value) {
+                        cycle.pull_duration = duration;
+                    }
+                }
+                Variable::Time(index) => match cycle.recovery.get_mut(index - 1) {
+                    Some(waypoint) => waypoint.approach.seconds = value,
+                    None => cycle.approach.seconds = value,
+                },
+            }
+        }
+        for (which, values) in controls {
+            let curve = Curve::b_spline(CONTROLS - 1, values)?;
+            match which {
+                PullCurve::Knee => cycle.pull.knee = curve,
+                PullCurve::Hip => cycle.pull.hip = curve,
+                PullCurve::UpperArm => cycle.pull.upper_arm = curve,
+                PullCurve::Company(joint) => {
+                    cycle.company.insert(joint, curve);
+                }
+            }
+        }
+        Ok(cycle)
+    }
+}
+
+const ANY: Range = Range {
+    lower: -std::f64::consts::PI,
+    upper: std::f64::consts::PI,
+};
+
+fn times(cycle: &Cycle) -> Vec<f64> {
+    let mut times = vec![cycle.pull_duration.seconds()];
+    times.extend(
+        cycle
+            .recovery
+            .iter()
+            .map(|waypoint| waypoint.approach.seconds),
+    );
+    times.push(cycle.approach.seconds);
+    times
+}
+
+/// The cycle with every joint that its recovery moves named at every waypoint.
+fn completed(robot: &Robot, cycle: &Cycle) -> Result<Cycle, CycleError> {
+    let stops = robot.stops();
+    let checked = CheckedCycle::plan(robot, &stops, cycle, 0.0, TimeScale::ONE)?;
+    let path = checked.recovery_from(checked.compression().clone())?;
+    let named: Vec<&String> = cycle
+        .recovery
+        .iter()
+        .flat_map(|w| w.joints.keys())
+        .collect();
+    let mirror = Mirror::of(robot);
+    // Of two twins the one that is named; both, where both are.
+    let mut joints: Vec<String> = named.iter().map(|name| (*name).clone()).collect();
+    joints.sort_unstable();
+    joints.dedup();
+    let twins_named = |name: &str| {
+        let id = robot.joint(name)?;
+        let twin = mirror.twin(id)?.joint;
+        (twin < id && joints.contains(&robot.joints[twin.0].name)).then_some(())
+    };
+    let joints: Vec<&String> = joints
+        .iter()
+        .filter(|name| twins_named(name).is_none())
+        .collect();
+    let mut completed = cycle.clone();
+    let ends = checked.recovery_ends();
+    for (waypoint, (_, end)) in completed.recovery.iter_mut().zip(ends) {
+        let posture = path.at(end);
+        let all: BTreeMap<String, f64> = joints
+            .iter()
+            .filter_map(|name| Some(((*name).clone(), posture[robot.joint(name)?])))
+            .collect();
+        waypoint.joints = all;
+    }
+    Ok(completed)
+}
