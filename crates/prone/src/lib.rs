@@ -18,5 +18,6 @@ pub mod frames;
 pub mod gait;
 pub mod mapping;
 pub mod robot;
+pub mod scene;
 pub mod statics;
 pub mod torque_map;
