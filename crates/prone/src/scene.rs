@@ -183,7 +183,7 @@ impl Plate {
     /// Unless said otherwise: a common board.
     pub const THICKNESS: f64 = 0.018;
     /// Edge of a leg's square section.
-    pub const LEG: f64 = 0.03;
+    pub const LEG: f64 = 0.02;
 }
 
 impl Panel {

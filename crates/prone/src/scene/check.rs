@@ -345,7 +345,7 @@ mod tests {
             ),
             (
                 error(|s| s.plates[0].length = f64::NAN),
-                "plate 1: length NaN m is outside 0.06 to 100 m",
+                "plate 1: length NaN m is outside 0.04 to 100 m",
             ),
             (
                 error(|s| s.plates[0].start = -0.1),
