@@ -197,5 +197,8 @@ fn glass_tints_what_is_behind_it() {
     let (before, behind, away) = (at(-0.5), at(0.5), at(-9.0));
     assert_eq!(behind, away);
     assert!(before[2] > away[2] + 20.0, "bluer: {before:?} {away:?}");
-    assert!(before[0] > 100.0 && before[0] < away[0], "still red: {before:?} {away:?}");
+    assert!(
+        before[0] > 100.0 && before[0] < away[0],
+        "still red: {before:?} {away:?}"
+    );
 }
