@@ -93,7 +93,14 @@ fn refuse(source: Source<'_>, table: &SceneFile, error: SceneError) -> FileError
             let message = format!("{key} = {value} is outside {lowest} to {highest}{reason}");
             (item, quantity, message)
         }
-        SceneError::TooManyPoints { .. } => (Item::Rough, Quantity::Spacing, error.to_string()),
+        SceneError::TooManyPoints { spacing, points } => {
+            let spacing = in_file(Quantity::Spacing, spacing);
+            let most = prone::scene::MOST_POINTS;
+            let message = format!(
+                "spacing_mm = {spacing} makes {points} points, at most {most} are possible"
+            );
+            (Item::Rough, Quantity::Spacing, message)
+        }
     };
     source.error(table.place(item, quantity), message)
 }

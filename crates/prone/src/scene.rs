@@ -9,7 +9,7 @@ mod check;
 mod obstacle;
 mod rough;
 
-pub use check::{Item, Quantity, SceneError};
+pub use check::{Item, MOST_POINTS, Quantity, SceneError};
 pub use obstacle::{Obstacle, ObstacleKind};
 pub use rough::{Heights, Roughness};
 

@@ -75,6 +75,7 @@ enum LegsName {
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[expect(clippy::struct_field_names, reason = "keys carry their unit")]
 struct PanelTable {
     start_mm: Number,
     width_mm: Option<Number>,
