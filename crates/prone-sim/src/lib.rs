@@ -1,7 +1,7 @@
 //! Crawling robots in the `MuJoCo` engine.
 //!
 //! [`LoadedRobot`] turns a robot's two files into [`prone::robot::Robot`]; a [`World`] puts it on a floor
-//! under a named contact [`regime`]; a [`Simulation`] steps it with the servo law of the published
+//! or into a scene under a named contact [`regime`]; a [`Simulation`] steps it with the servo law of the published
 //! study; [`pull`] runs one closed-chain phase and records it, [`crawl`] whole cycles; [`camera`]
 //! takes pictures on the CPU. [`imu`] is what the robot feels of its attitude; [`self_collision`]
 //! tells how near its limbs come to one another.
@@ -23,7 +23,9 @@ mod world;
 
 pub use load::{LoadError, LoadedRobot, ModelProblem, RobotFiles};
 pub use regime::Regime;
-pub use simulation::{Placement, Simulation, SimulationError, Snapshot, StepMeans};
+pub use simulation::{
+    ObstacleContact, Placement, Simulation, SimulationError, Snapshot, StepMeans,
+};
 pub use world::{World, WorldError};
 
 /// The version of the engine that is linked, as it reports itself.
