@@ -1,6 +1,7 @@
 //! What may be typed.
 
 pub(crate) mod optimize;
+pub(crate) mod passage;
 pub(crate) mod pricing;
 mod torque_map;
 
@@ -42,6 +43,9 @@ pub(crate) enum Command {
     Optimize(optimize::OptimizeArgs),
     /// Price one gait
     Cost(optimize::CostArgs),
+    /// Crawl whole cycles, and ask what a robot gets under
+    #[command(subcommand)]
+    Crawl(CrawlCommand),
     /// Look at gaits
     #[command(subcommand)]
     Gait(GaitCommand),
@@ -59,6 +63,14 @@ pub(crate) enum Command {
         /// For which shell
         shell: clap_complete::Shell,
     },
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum CrawlCommand {
+    /// Whether the robot gets under a ceiling, with which cycle, and how fast
+    Under(passage::UnderArgs),
+    /// Search the curve of ceiling against advance or heat
+    Frontier(passage::FrontierArgs),
 }
 
 #[derive(Debug, Subcommand)]

@@ -7,10 +7,9 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use anyhow::anyhow;
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-
-use prone_study::optimize::search::Search;
 
 use crate::lock::Lock;
 use crate::{Failure, table_file};
@@ -27,15 +26,15 @@ pub(crate) struct Checkpoint {
 }
 
 #[derive(Serialize)]
-struct Written<'a> {
+struct Written<'a, S> {
     plan: &'a Value,
-    search: &'a Search,
+    search: &'a S,
 }
 
 #[derive(Deserialize)]
-struct Read {
+struct Read<S> {
     plan: Value,
-    search: Search,
+    search: S,
 }
 
 impl Checkpoint {
@@ -60,14 +59,14 @@ impl Checkpoint {
     }
 
     /// The search that was interrupted, `None` if there was none.
-    pub(crate) fn read(&self) -> Result<Option<Search>, Failure> {
+    pub(crate) fn read<S: DeserializeOwned>(&self) -> Result<Option<S>, Failure> {
         let path = self.path.display();
         let text = match fs::read(&self.path) {
             Ok(text) => text,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
             Err(error) => return Err(Failure::Input(anyhow!("cannot read {path}: {error}"))),
         };
-        let read: Read = serde_json::from_slice(&text)
+        let read: Read<S> = serde_json::from_slice(&text)
             .map_err(|error| Failure::Input(anyhow!("{path} is no checkpoint: {error}")))?;
         if let Some((key, then, now)) = difference("", &read.plan, &self.plan) {
             return Err(Failure::Input(anyhow!(
@@ -78,7 +77,7 @@ impl Checkpoint {
     }
 
     /// Writes now and then; whole or not at all.
-    pub(crate) fn keep(&mut self, search: &Search) -> Result<(), Failure> {
+    pub(crate) fn keep(&mut self, search: &impl Serialize) -> Result<(), Failure> {
         if self.written.is_some_and(|at| at.elapsed() < INTERVAL) {
             return Ok(());
         }
@@ -86,7 +85,7 @@ impl Checkpoint {
     }
 
     /// Writes; whole or not at all.
-    pub(crate) fn write(&mut self, search: &Search) -> Result<(), Failure> {
+    pub(crate) fn write(&mut self, search: &impl Serialize) -> Result<(), Failure> {
         let written = Written {
             plan: &self.plan,
             search,

@@ -7,10 +7,12 @@ mod args;
 mod checkpoint;
 mod cost;
 mod failure;
+mod frontier;
 mod gait;
 mod interrupt;
 mod lock;
 mod optimize;
+mod passage;
 mod pricing;
 mod progress;
 mod reproduce;
@@ -23,7 +25,7 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser};
 
-use args::{Args, Command, GaitCommand, RobotCommand};
+use args::{Args, Command, CrawlCommand, GaitCommand, RobotCommand};
 use failure::Failure;
 
 fn main() -> ExitCode {
@@ -35,6 +37,8 @@ fn main() -> ExitCode {
         Command::Gait(GaitCommand::Show(args)) => gait::show(&args),
         Command::Robot(RobotCommand::Check(args)) => robot::check(&args),
         Command::TorqueMap(command) => torque_map::run(&command),
+        Command::Crawl(CrawlCommand::Under(args)) => passage::run(&args),
+        Command::Crawl(CrawlCommand::Frontier(args)) => frontier::run(&args),
         Command::Completions { shell } => completions(shell),
     };
     match done {

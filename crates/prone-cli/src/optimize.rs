@@ -186,7 +186,7 @@ fn begin(
     if !args.resume {
         return Ok(fresh());
     }
-    let Some(mut search) = checkpoint.read()? else {
+    let Some(mut search) = checkpoint.read::<Search>()? else {
         eprintln!(
             "no checkpoint at {}: beginning anew",
             checkpoint.path().display()

@@ -8,9 +8,11 @@
 
 mod measure;
 mod pilot;
+mod slope;
 
 pub use measure::{Advance, BodyPart, CycleRow, Effort, JointEffort, Row, Tops};
 pub use pilot::{Bearing, Decision, Moment, Pilot, Stage, Straight};
+pub use slope::SlopeAware;
 
 use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale};
 use prone::mapping::{Mapping, MappingError};

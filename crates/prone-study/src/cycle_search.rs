@@ -4,7 +4,11 @@
 //! `prone-optim` searches over both.
 
 pub mod form;
+pub mod frontier;
+pub mod passage;
 pub mod price;
+pub mod record;
+pub mod settings;
 
 use prone_optim::{Interval, Problem, Score};
 

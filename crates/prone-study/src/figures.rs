@@ -15,6 +15,7 @@ mod check;
 mod comparison;
 mod cost;
 mod font;
+mod frontier;
 mod heat;
 mod panel;
 mod parameters;
@@ -29,6 +30,7 @@ mod tests;
 mod torque;
 mod torque_map;
 
+pub use frontier::figure as frontier_figure;
 pub use search::{Scores, figures as search_figures};
 
 use crate::record::{ChainRecord, CostRecord, PullRecord};

@@ -1,0 +1,185 @@
+//! `prone crawl under`: can the robot get under this, how, and how fast?
+
+use std::io::Write as _;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+use anyhow::anyhow;
+
+use prone::gait::cycle::Cycle;
+use prone_files::{cycle_file, shipped, text_file};
+use prone_sim::LoadedRobot;
+use prone_study::cycle_search::frontier::{self, Against, Ceiling};
+use prone_study::cycle_search::passage::{Passage, Tried};
+use prone_study::cycle_search::settings;
+use prone_study::optimize::search::{Search, SearchEnd};
+
+use crate::args::passage::UnderArgs;
+use crate::progress::SearchProgress;
+use crate::{Failure, interrupt, table_file};
+
+/// A shipped cycle by name, or the cycle of a file.
+pub(crate) fn find(name: &str) -> Result<Cycle, Failure> {
+    if let Some(cycle) = shipped::cycle(name) {
+        return cycle.map_err(Failure::input);
+    }
+    let path = Path::new(name);
+    let known: Vec<_> = shipped::cycle_names().collect();
+    let known = known.join(", ");
+    if shipped::gait_names().any(|pull| pull == name) {
+        return Err(Failure::Input(anyhow!(
+            "{name} is a pull, which has no way back: the cycles that ship with prone are {known}"
+        )));
+    }
+    if !path.exists() {
+        return Err(Failure::Input(anyhow!(
+            "there is no cycle {name:?}: it is neither one that ships with prone ({known}) nor a file"
+        )));
+    }
+    let text = text_file::read(path)
+        .map_err(|error| Failure::Input(anyhow!("cannot read {name}: {error}")))?;
+    cycle_file::parse(name, &text).map_err(Failure::input)
+}
+
+/// Cycles by name, or all that ship.
+pub(crate) fn cycles(names: &[String]) -> Result<Vec<Cycle>, Failure> {
+    if names.is_empty() {
+        return shipped::cycle_names().map(find).collect();
+    }
+    names.iter().map(|name| find(name)).collect()
+}
+
+pub(crate) fn run(args: &UnderArgs) -> Result<(), Failure> {
+    let robot = crate::robot::load(args.robot.as_deref())?;
+    let mut cycles = cycles(&args.gait)?;
+    let settings = settings::for_advance(&robot).map_err(Failure::input)?;
+    let (ceiling, margin) = (args.ceiling_mm * 1e-3, args.margin_mm * 1e-3);
+    if margin >= ceiling {
+        return Err(Failure::Input(anyhow!(
+            "a margin of {} mm leaves nothing of a ceiling of {} mm",
+            args.margin_mm,
+            args.ceiling_mm
+        )));
+    }
+    interrupt::listen()?;
+    let mut passage = Passage::of(robot.robot(), &settings[0], &cycles, ceiling, margin);
+    if let (Some(seed), true) = (args.seed, passage.may_be_searched()) {
+        let found = search(args, &robot, &settings, &cycles, ceiling - margin, seed)?;
+        if let Some((cycle, tried)) = found {
+            passage.take(tried, "searched");
+            cycles.push(cycle);
+        }
+    }
+    if let (Some(path), Some(best)) = (&args.gait_out, &passage.best) {
+        let cycle = cycles
+            .iter()
+            .rev()
+            .find(|cycle| cycle.pull.name == best.gait);
+        let header = format!(
+            "Passes {} mm with {:.1} mm to spare, {:.1} mm per cycle (prone crawl under).",
+            args.ceiling_mm, best.left_mm, best.mm_per_cycle
+        );
+        if let Some(cycle) = cycle {
+            let text = cycle_file::write(cycle, &header);
+            table_file::write(path, text.as_bytes()).map_err(|error| {
+                Failure::Input(anyhow!("cannot write {}: {error}", path.display()))
+            })?;
+        }
+    }
+    let mut out = std::io::stdout().lock();
+    if args.json {
+        let text = serde_json::to_string_pretty(&passage).map_err(Failure::work)?;
+        writeln!(out, "{text}")?;
+    } else {
+        print(&passage, args.seed.is_none(), &mut out)?;
+    }
+    Ok(())
+}
+
+/// Searches a cycle that fits about the lowest one there is.
+fn search(
+    args: &UnderArgs,
+    robot: &LoadedRobot,
+    settings: &[prone_study::cycle_search::price::Setting],
+    cycles: &[Cycle],
+    height: f64,
+    seed: u64,
+) -> Result<Option<(Cycle, Tried)>, Failure> {
+    let base = frontier::base(robot, &settings[0], cycles, height).map_err(Failure::input)?;
+    let ceiling = Ceiling::new(robot.robot(), settings, Against::Advance, base, height)
+        .map_err(Failure::input)?;
+    let mut search = Search::about_the_middle(seed, 1, args.budget);
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(args.threads.map_or(0, usize::from))
+        .build()
+        .map_err(|error| Failure::Work(anyhow!("cannot start worker threads: {error}")))?;
+    let progress = SearchProgress::new(&search)?;
+    let end = pool.install(|| {
+        ceiling.proceed(&mut search, |search| {
+            progress.show(search);
+            if interrupt::requested() {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        })
+    });
+    progress.finish();
+    if end == SearchEnd::Interrupted {
+        return Err(Failure::Stopped);
+    }
+    let Some((_, best)) = search.best() else {
+        return Ok(None);
+    };
+    let Some((mut cycle, price)) = ceiling.quote(&best.point) else {
+        return Ok(None);
+    };
+    cycle.pull.name = format!(
+        "under-{}-seed-{seed}",
+        args.ceiling_mm.to_string().replace('.', "-")
+    );
+    let Some(trial) = price.trials.first() else {
+        return Ok(None);
+    };
+    let tried = Tried::of(&cycle, trial, args.ceiling_mm * 1e-3);
+    Ok(Some((cycle, tried)))
+}
+
+fn print(
+    passage: &Passage,
+    unsearched: bool,
+    out: &mut impl std::io::Write,
+) -> std::io::Result<()> {
+    let ceiling = passage.ceiling_mm;
+    match &passage.best {
+        Some(best) => {
+            writeln!(out, "{ceiling} mm: feasible with {}", best.gait)?;
+            writeln!(
+                out,
+                "  {:.1} mm to spare ({} mm asked), {:.1} mm per cycle, {:.1} mm/s",
+                best.left_mm, passage.margin_mm, best.mm_per_cycle, best.mm_per_s
+            )?;
+            writeln!(
+                out,
+                "  largest torque {:.2} of the maker's limit ({})",
+                best.peak_torque_over_rated, best.peak_joint
+            )?;
+        }
+        None => writeln!(out, "{ceiling} mm: not feasible")?,
+    }
+    writeln!(out, "  limited by {}", passage.limited_by)?;
+    for tried in &passage.tried {
+        writeln!(
+            out,
+            "    {:<18}{:>7.1} mm high ({}), {:>6.1} mm per cycle, {:>5.1} mm/s",
+            tried.gait, tried.top_mm, tried.top_part, tried.mm_per_cycle, tried.mm_per_s
+        )?;
+    }
+    for (gait, reason) in &passage.refused {
+        writeln!(out, "    {gait}: cannot be crawled: {reason}")?;
+    }
+    if unsearched && passage.may_be_searched() {
+        writeln!(out, "  --seed 1 searches for a lower one")?;
+    }
+    Ok(())
+}

@@ -1,0 +1,83 @@
+//! Choosing the cycle by the slope that the robot feels.
+
+use prone::attitude::{AttitudeFilter, Gains};
+
+use super::CrawlError;
+use super::pilot::{Decision, Moment, Pilot, Stage};
+use crate::imu::SimulatedImu;
+
+/// Part of the pull whose attitude counts, phases: before it, the body is still being lifted.
+const CARRIED: (f64, f64) = (0.3, 0.95);
+
+/// Crawls one cycle on the flat and another uphill. The slope is what the inertial unit tells of
+/// the trunk's pitch, less the pitch that the chain has on level ground, mean over the pull.
+#[derive(Debug)]
+pub struct SlopeAware<P> {
+    /// Who steers; its choice of cycle is replaced.
+    pub steering: P,
+    imu: SimulatedImu,
+    filter: Option<AttitudeFilter>,
+    /// Above which slope, rad, the uphill cycle is taken, and below which it is left again.
+    thresholds: (f64, f64),
+    uphill: bool,
+    sum: f64,
+    count: f64,
+    felt: Vec<f64>,
+}
+
+impl<P: Pilot> SlopeAware<P> {
+    /// A pilot that takes cycle 1 above `up`, rad, and cycle 0 again below half of it.
+    pub fn new(steering: P, imu: SimulatedImu, up: f64) -> Self {
+        Self {
+            steering,
+            imu,
+            filter: None,
+            thresholds: (up, up / 2.0),
+            uphill: false,
+            sum: 0.0,
+            count: 0.0,
+            felt: Vec::new(),
+        }
+    }
+
+    /// The slope felt in each pull so far, rad, uphill positive.
+    pub fn felt(&self) -> &[f64] {
+        &self.felt
+    }
+}
+
+impl<P: Pilot> Pilot for SlopeAware<P> {
+    fn decide(&mut self, now: &Moment<'_, '_>) -> Result<Decision, CrawlError> {
+        if self.count > 0.0 {
+            let slope = self.sum / self.count;
+            let (up, down) = self.thresholds;
+            self.uphill = slope > if self.uphill { down } else { up };
+            self.felt.push(slope);
+        }
+        (self.sum, self.count) = (0.0, 0.0);
+        Ok(Decision {
+            cycle: usize::from(self.uphill),
+            ..self.steering.decide(now)?
+        })
+    }
+
+    fn sense(&mut self, now: &Moment<'_, '_>) {
+        self.steering.sense(now);
+        let reading = self.imu.read(now.simulation);
+        let Some(filter) = &mut self.filter else {
+            // At rest before the first pull.
+            self.filter = AttitudeFilter::aligned(Gains::PUBLISHED, &reading).ok();
+            return;
+        };
+        if filter.update(&reading, now.simulation.time_step()).is_err() {
+            return;
+        }
+        if let Stage::Pull { s, planned_pitch } = now.stage
+            && (CARRIED.0..CARRIED.1).contains(&s)
+            && let Ok(slope) = filter.attitude().slope(planned_pitch)
+        {
+            self.sum += slope;
+            self.count += 1.0;
+        }
+    }
+}

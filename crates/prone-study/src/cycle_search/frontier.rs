@@ -1,0 +1,231 @@
+//! The curve of ceiling against advance, and whether a robot gets under a given one.
+
+use prone::gait::cycle::{Cycle, TimeScale};
+use prone::robot::Robot;
+use prone_sim::LoadedRobot;
+use serde::{Deserialize, Serialize};
+
+use super::CycleProblem;
+use super::form::{CycleForm, CycleFormError};
+use super::price::{
+    CycleObjective, CyclePrice, CyclePricer, CycleRules, PricerError, Setting, Trial, try_out,
+};
+use super::settings::{self, HOLDS, SettingError};
+use crate::optimize::search::{Search, SearchEnd};
+
+/// What a frontier searches at each ceiling.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Against {
+    /// The largest advance per cycle.
+    Advance,
+    /// The least heat per metre.
+    Heat,
+}
+
+/// Why nothing can be said.
+#[derive(Debug, thiserror::Error)]
+pub enum FrontierError {
+    /// A setting cannot be made.
+    #[error(transparent)]
+    Setting(#[from] SettingError),
+    /// There is no box about the base cycle.
+    #[error(transparent)]
+    Form(#[from] CycleFormError),
+    /// Cycles cannot be priced.
+    #[error(transparent)]
+    Pricer(#[from] PricerError),
+    /// No cycle to begin with.
+    #[error("there is no cycle that {robot} can crawl to begin with")]
+    NoCycle {
+        /// The robot's name.
+        robot: String,
+    },
+}
+
+/// One ceiling's searches.
+pub struct Ceiling<'a> {
+    form: CycleForm,
+    pricer: CyclePricer<'a>,
+    height: f64,
+}
+
+impl<'a> Ceiling<'a> {
+    /// Searches about a cycle under a height, m, in settings made by [`settings`].
+    ///
+    /// # Errors
+    /// [`FrontierError`].
+    pub fn new(
+        robot: &Robot,
+        settings: &'a [Setting],
+        against: Against,
+        base: &Cycle,
+        height: f64,
+    ) -> Result<Self, FrontierError> {
+        let (objective, rules) = match against {
+            Against::Advance => (
+                CycleObjective::Advance,
+                settings::advance_rules(height, base.duration(TimeScale::ONE)),
+            ),
+            Against::Heat => (
+                CycleObjective::Heat,
+                CycleRules {
+                    ceiling: height,
+                    advance: LEAST_ADVANCE,
+                    ..CycleRules::FREE
+                },
+            ),
+        };
+        Ok(Self {
+            form: CycleForm::about(robot, base)?,
+            pricer: CyclePricer::new(settings, objective, rules, base)?,
+            height,
+        })
+    }
+
+    /// Height below which everything has to stay, m.
+    pub const fn height(&self) -> f64 {
+        self.height
+    }
+
+    /// Numbers of a point.
+    pub fn variables(&self) -> usize {
+        self.form.bounds().len()
+    }
+
+    /// Goes on with a search.
+    pub fn proceed(
+        &self,
+        search: &mut Search,
+        between: impl FnMut(&Search) -> std::ops::ControlFlow<()>,
+    ) -> SearchEnd {
+        let problem = CycleProblem {
+            form: &self.form,
+            pricer: &self.pricer,
+        };
+        search.proceed(&problem, between)
+    }
+
+    /// The cycle of a point, with its price in every setting.
+    pub fn quote(&self, point: &[f64]) -> Option<(Cycle, CyclePrice)> {
+        let cycle = self.form.cycle(point).ok()?;
+        let price = self.pricer.quote(&cycle);
+        Some((cycle, price))
+    }
+}
+
+/// Least advance of a cycle that is searched for its heat, m: slower ones stand still.
+const LEAST_ADVANCE: f64 = 0.12;
+
+/// What a confirmation says of a cycle under a ceiling.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Confirmed {
+    /// Whether everything that was asked holds.
+    pub holds: bool,
+    /// What was found in each setting.
+    pub settings: Vec<ConfirmedSetting>,
+}
+
+/// A cycle in one setting.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ConfirmedSetting {
+    /// Its name.
+    pub setting: String,
+    /// Advance per cycle, mm; `None` where it cannot be crawled, with the reason below.
+    pub mm_per_cycle: Option<f64>,
+    /// Speed, mm/s.
+    pub mm_per_s: Option<f64>,
+    /// Highest point, mm.
+    pub top_mm: Option<f64>,
+    /// Part of the body that reaches it.
+    pub top_part: Option<String>,
+    /// Heat per metre, s/m.
+    pub heat_per_metre_s: Option<f64>,
+    /// Largest actuator torque over the maker's effort limit.
+    pub peak_torque_over_rated: Option<f64>,
+    /// Whose.
+    pub peak_joint: Option<String>,
+    /// Advance over the first setting's.
+    pub kept: Option<f64>,
+    /// Why it cannot be crawled.
+    pub refused: Option<String>,
+}
+
+/// Crawls a cycle in the settings of a confirmation, under a ceiling, m.
+pub fn confirm(settings: &[Setting], cycle: &Cycle, ceiling: f64) -> Confirmed {
+    let mut rows: Vec<ConfirmedSetting> = Vec::with_capacity(settings.len());
+    let mut first = None;
+    let mut holds = true;
+    for setting in settings {
+        let row = match try_out(setting, cycle) {
+            Ok(trial) => {
+                let advance = *first.get_or_insert(trial.advance);
+                let kept = trial.advance / advance;
+                holds &= trial.top.0 < ceiling && kept >= HOLDS && trial.advance > 0.0;
+                row(setting, &trial, kept)
+            }
+            Err(error) => {
+                holds = false;
+                refused(setting, error.to_string())
+            }
+        };
+        rows.push(row);
+    }
+    Confirmed {
+        holds,
+        settings: rows,
+    }
+}
+
+fn row(setting: &Setting, trial: &Trial, kept: f64) -> ConfirmedSetting {
+    ConfirmedSetting {
+        setting: setting.name.clone(),
+        mm_per_cycle: Some(trial.advance * 1e3),
+        mm_per_s: Some(trial.advance / trial.seconds * 1e3),
+        top_mm: Some(trial.top.0 * 1e3),
+        top_part: Some(trial.top.1.to_owned()),
+        heat_per_metre_s: Some(trial.heat_per_metre).filter(|heat| heat.is_finite()),
+        peak_torque_over_rated: Some(trial.peak_over_limit.0),
+        peak_joint: Some(trial.peak_over_limit.1.clone()),
+        kept: Some(kept),
+        refused: None,
+    }
+}
+
+fn refused(setting: &Setting, reason: String) -> ConfirmedSetting {
+    ConfirmedSetting {
+        setting: setting.name.clone(),
+        mm_per_cycle: None,
+        mm_per_s: None,
+        top_mm: None,
+        top_part: None,
+        heat_per_metre_s: None,
+        peak_torque_over_rated: None,
+        peak_joint: None,
+        kept: None,
+        refused: Some(reason),
+    }
+}
+
+/// The base of a search under a height, m: of the cycles that stay below it, the one that advances
+/// most in the first of the settings; where none does, the lowest.
+///
+/// # Errors
+/// [`FrontierError::NoCycle`].
+pub fn base<'c>(
+    robot: &LoadedRobot,
+    setting: &Setting,
+    cycles: &'c [Cycle],
+    height: f64,
+) -> Result<&'c Cycle, FrontierError> {
+    let tried: Vec<(&Cycle, Trial)> = cycles
+        .iter()
+        .filter_map(|cycle| Some((cycle, try_out(setting, cycle).ok()?)))
+        .collect();
+    let below = tried.iter().filter(|(_, trial)| trial.top.0 <= height);
+    let farthest = below.max_by(|a, b| a.1.advance.total_cmp(&b.1.advance));
+    let lowest = || tried.iter().min_by(|a, b| a.1.top.0.total_cmp(&b.1.top.0));
+    let chosen = farthest.or_else(lowest).map(|(cycle, _)| *cycle);
+    chosen.ok_or_else(|| FrontierError::NoCycle {
+        robot: robot.robot().name.clone(),
+    })
+}

@@ -1,0 +1,205 @@
+//! Whether a robot gets under a ceiling, with which cycle, and what limits it.
+
+use glam::DVec3;
+
+use prone::frames::{Ground, Root, Transform};
+use prone::gait::cycle::Cycle;
+use prone::robot::{ContactGroup, JointAngles, Robot};
+use serde::Serialize;
+
+use super::price::{Setting, Trial, try_out};
+
+/// An answer.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Passage {
+    /// The robot.
+    pub robot: String,
+    /// Height of the ceiling above the floor, mm.
+    pub ceiling_mm: f64,
+    /// Distance that has to stay between robot and ceiling, mm.
+    pub margin_mm: f64,
+    /// Whether there is a cycle.
+    pub feasible: bool,
+    /// The fastest one, where there is.
+    pub best: Option<Tried>,
+    /// Whether it ships or was searched.
+    pub found_by: Option<String>,
+    /// What limits it: the part of the body that comes nearest to the ceiling, or why there is none.
+    pub limited_by: String,
+    /// Every cycle that was tried.
+    pub tried: Vec<Tried>,
+    /// Cycles that this robot cannot crawl, with the reason.
+    pub refused: Vec<(String, String)>,
+}
+
+/// A cycle and what it came to.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Tried {
+    /// Its name.
+    pub gait: String,
+    /// Highest point of the robot, mm.
+    pub top_mm: f64,
+    /// Part of the body that reaches it.
+    pub top_part: String,
+    /// What is left below the ceiling, mm; negative where it does not fit.
+    pub left_mm: f64,
+    /// Advance per cycle, mm.
+    pub mm_per_cycle: f64,
+    /// Speed, mm/s.
+    pub mm_per_s: f64,
+    /// Largest actuator torque over the maker's effort limit.
+    pub peak_torque_over_rated: f64,
+    /// Whose.
+    pub peak_joint: String,
+}
+
+impl Passage {
+    /// Tries cycles under a ceiling, m, with a margin, m; none is crawled where not even a foot
+    /// fits.
+    pub fn of(
+        robot: &Robot,
+        setting: &Setting,
+        cycles: &[Cycle],
+        ceiling: f64,
+        margin: f64,
+    ) -> Self {
+        let mut passage = Self {
+            robot: robot.name.clone(),
+            ceiling_mm: ceiling * 1e3,
+            margin_mm: margin * 1e3,
+            feasible: false,
+            best: None,
+            found_by: None,
+            limited_by: String::new(),
+            tried: Vec::new(),
+            refused: Vec::new(),
+        };
+        let foot = foot_length(robot);
+        if foot > ceiling - margin {
+            passage.limited_by = format!(
+                "the foot, {:.1} mm long: with toes planted it passes through the vertical in every closed-chain gait, and {:.1} mm are left",
+                foot * 1e3,
+                (ceiling - margin) * 1e3
+            );
+            return passage;
+        }
+        for cycle in cycles {
+            match try_out(setting, cycle) {
+                Ok(trial) => passage.take(Tried::of(cycle, &trial, ceiling), "shipped"),
+                Err(error) => {
+                    let name = cycle.pull.name.clone();
+                    passage.refused.push((name, error.to_string()));
+                }
+            }
+        }
+        passage
+    }
+
+    /// Takes one more cycle into account.
+    pub fn take(&mut self, tried: Tried, found_by: &str) {
+        let fits = tried.left_mm >= self.margin_mm && tried.mm_per_cycle > 0.0;
+        let faster = self
+            .best
+            .as_ref()
+            .is_none_or(|best| tried.mm_per_s > best.mm_per_s);
+        if fits && (faster || !self.feasible) {
+            self.feasible = true;
+            self.found_by = Some(found_by.to_owned());
+            self.best = Some(tried.clone());
+            self.limited_by = format!(
+                "{}, whose highest point is {:.1} mm below the ceiling",
+                tried.top_part, tried.left_mm
+            );
+        }
+        self.tried.push(tried);
+        if !self.feasible {
+            let lowest = self
+                .tried
+                .iter()
+                .min_by(|a, b| a.top_mm.total_cmp(&b.top_mm));
+            self.limited_by = lowest.map_or_else(String::new, |lowest| {
+                format!(
+                    "the {}: {:.1} mm high in {}, the lowest cycle tried, and {:.1} mm are left",
+                    lowest.top_part,
+                    lowest.top_mm,
+                    lowest.gait,
+                    self.ceiling_mm - self.margin_mm
+                )
+            });
+        }
+    }
+
+    /// Whether a search may still find one: nothing fits, but the foot does.
+    pub fn may_be_searched(&self) -> bool {
+        !self.feasible && !self.tried.is_empty()
+    }
+}
+
+impl Tried {
+    /// What a cycle came to under a ceiling, m.
+    pub fn of(cycle: &Cycle, trial: &Trial, ceiling: f64) -> Self {
+        Self {
+            gait: cycle.pull.name.clone(),
+            top_mm: trial.top.0 * 1e3,
+            top_part: trial.top.1.to_owned(),
+            left_mm: (ceiling - trial.top.0) * 1e3,
+            mm_per_cycle: trial.advance * 1e3,
+            mm_per_s: trial.advance / trial.seconds * 1e3,
+            peak_torque_over_rated: trial.peak_over_limit.0,
+            peak_joint: trial.peak_over_limit.1.clone(),
+        }
+    }
+}
+
+/// How long the foot is along its sole, m: its shapes' extent forward in the zero pose, in which a
+/// humanoid stands on flat soles. The longer of both feet.
+pub fn foot_length(robot: &Robot) -> f64 {
+    let upright = Transform::<Ground, Root>::translation(DVec3::ZERO);
+    let poses = robot.forward_kinematics(upright, &JointAngles::zero(robot));
+    let sides = robot.chain.sides().map(|side| {
+        let y = poses.point(side.toe).metres().y;
+        let feet = robot.shapes.iter().filter(|shape| {
+            let body = &robot.bodies[shape.body.0];
+            let centre = (*poses.of(shape.body) * shape.link_from_geom)
+                .origin()
+                .metres();
+            body.contact_group == ContactGroup::Toe && centre.y * y > 0.0
+        });
+        let (mut front, mut back) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
+        for shape in feet {
+            front = front.max(shape.reach_along(poses.of(shape.body), DVec3::X));
+            back = back.max(shape.reach_along(poses.of(shape.body), DVec3::NEG_X));
+        }
+        front + back
+    });
+    sides[0].max(sides[1])
+}
+
+#[cfg(test)]
+mod tests {
+    use prone_files::shipped;
+    use prone_sim::{LoadedRobot, RobotFiles};
+
+    use super::*;
+    use crate::cycle_search::settings;
+
+    #[test]
+    fn reference_the_foot_decides_at_160_mm() {
+        let robot = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
+        // The sole's box in robot.xml is 160.6 mm long.
+        assert!((foot_length(robot.robot()) - 0.1606).abs() < 1e-9);
+        let settings = settings::for_advance(&robot).unwrap();
+        let cycles: Vec<Cycle> = shipped::cycle_names()
+            .map(|name| shipped::cycle(name).unwrap().unwrap())
+            .collect();
+        let under = |mm: f64| Passage::of(robot.robot(), &settings[0], &cycles, mm * 1e-3, 3e-3);
+        let low = under(160.0);
+        assert!(!low.feasible && !low.may_be_searched());
+        assert!(low.limited_by.contains("foot"), "{}", low.limited_by);
+        let tight = under(168.0);
+        assert!(tight.feasible, "{tight:?}");
+        assert!(tight.best.unwrap().left_mm >= 3.0);
+        let high = under(178.5);
+        assert!(high.best.unwrap().mm_per_cycle > 110.0);
+    }
+}

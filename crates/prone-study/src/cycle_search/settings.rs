@@ -1,0 +1,139 @@
+//! The settings in which cycles are priced and checked.
+//!
+//! All are the locomotion regime, with the maker's effort and joint limits on; friction, servo
+//! gains, time scale and the engine's step are what its name says.
+
+use prone::gait::cycle::{TimeScale, TimeScaleError};
+use prone_sim::regime::Servo;
+use prone_sim::{LoadedRobot, Regime, World, WorldError};
+
+use super::price::{CycleRules, Role, Setting};
+
+/// Friction of the locomotion regime and the span over which a cycle has to hold.
+const SLIPPERY: f64 = 0.4;
+const STICKY: f64 = 1.0;
+/// Time scales over which a cycle has to hold: played slowly, an arm shows how high it is lifted;
+/// played fast, servos lag.
+const FAST: f64 = 0.8;
+const SLOW: f64 = 1.7;
+/// Velocity gain of stiff servos, N·m·s/rad: with the servo law's 20/s, 400 N·m/rad.
+const STIFF: f64 = 20.0;
+/// Share of the advance that a search keeps where it has to hold: a confirmation asks for less.
+const KEEP: f64 = 0.85;
+/// Share that a confirmation asks for.
+pub const HOLDS: f64 = 0.8;
+
+/// Why there are no settings.
+#[derive(Debug, thiserror::Error)]
+pub enum SettingError {
+    /// The engine refuses the model.
+    #[error(transparent)]
+    World(#[from] WorldError),
+    /// A time scale that no crawl can have.
+    #[error(transparent)]
+    Scale(#[from] TimeScaleError),
+}
+
+/// Makes settings of one robot.
+struct Maker<'a> {
+    robot: &'a LoadedRobot,
+    regime: Regime,
+}
+
+impl Maker<'_> {
+    fn make(
+        &self,
+        name: &str,
+        regime: Regime,
+        scale: f64,
+        cycles: usize,
+        role: Role,
+    ) -> Result<Setting, SettingError> {
+        Ok(Setting {
+            name: name.to_owned(),
+            world: World::new(self.robot, regime)?,
+            scale: TimeScale::new(scale)?,
+            cycles,
+            role,
+        })
+    }
+
+    fn friction(&self, friction: f64) -> Regime {
+        self.regime.with_friction(friction)
+    }
+}
+
+fn maker(robot: &LoadedRobot) -> Maker<'_> {
+    Maker {
+        robot,
+        regime: Regime::LOCOMOTION,
+    }
+}
+
+/// For a search of the advance: as it is, and the two corners in which it is hardest to hold.
+///
+/// # Errors
+/// [`SettingError`].
+pub fn for_advance(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
+    let maker = maker(robot);
+    Ok(vec![
+        maker.make("as it is", maker.regime, 1.0, 2, Role::Value)?,
+        maker.make(
+            "slow, slippery",
+            maker.friction(SLIPPERY),
+            SLOW,
+            1,
+            Role::Keep(KEEP),
+        )?,
+        maker.make(
+            "fast, sticky",
+            maker.friction(STICKY),
+            FAST,
+            1,
+            Role::Keep(KEEP),
+        )?,
+    ])
+}
+
+/// For a search of the heat: the mean over soft and stiff servos, as nobody knows a robot's.
+///
+/// # Errors
+/// [`SettingError`].
+pub fn for_heat(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
+    let maker = maker(robot);
+    let stiff = maker.regime.with_servo(Servo::Uniform(STIFF));
+    Ok(vec![
+        maker.make("as it is", maker.regime, 1.0, 2, Role::Value)?,
+        maker.make("stiff servos", stiff, 1.0, 2, Role::Value)?,
+    ])
+}
+
+/// For a confirmation: one thing changed at a time, three cycles each.
+///
+/// # Errors
+/// [`SettingError`].
+pub fn for_confirmation(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
+    let maker = maker(robot);
+    let keep = Role::Keep(HOLDS);
+    let stiff = maker.regime.with_servo(Servo::Uniform(STIFF));
+    let fine = maker.regime.with_time_step(0.001);
+    Ok(vec![
+        maker.make("as it is", maker.regime, 1.0, 3, Role::Value)?,
+        maker.make("friction 0.4", maker.friction(SLIPPERY), 1.0, 3, keep)?,
+        maker.make("friction 1", maker.friction(STICKY), 1.0, 3, keep)?,
+        maker.make("time scale 0.8", maker.regime, FAST, 3, keep)?,
+        maker.make("time scale 1.7", maker.regime, SLOW, 3, keep)?,
+        maker.make("1 ms steps", fine, 1.0, 3, keep)?,
+        maker.make("stiff servos", stiff, 1.0, 3, keep)?,
+    ])
+}
+
+/// Rules of a search of the advance under a ceiling, m; no cycle may be slower than the one that
+/// it is searched about, s.
+pub fn advance_rules(ceiling: f64, seconds: f64) -> CycleRules {
+    CycleRules {
+        ceiling,
+        seconds,
+        ..CycleRules::FREE
+    }
+}
