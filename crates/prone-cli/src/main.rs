@@ -6,8 +6,9 @@
 mod args;
 mod checkpoint;
 mod cost;
+mod cycle_search;
 mod failure;
-mod frontier;
+
 mod gait;
 mod interrupt;
 mod lock;
@@ -38,7 +39,7 @@ fn main() -> ExitCode {
         Command::Robot(RobotCommand::Check(args)) => robot::check(&args),
         Command::TorqueMap(command) => torque_map::run(&command),
         Command::Crawl(CrawlCommand::Under(args)) => passage::run(&args),
-        Command::Crawl(CrawlCommand::Frontier(args)) => frontier::run(&args),
+        Command::Crawl(CrawlCommand::Frontier(args)) => cycle_search::frontier(&args),
         Command::Completions { shell } => completions(shell),
     };
     match done {

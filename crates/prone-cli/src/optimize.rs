@@ -35,6 +35,10 @@ const DYNAMIC_BUDGET: u64 = 3_000;
 const COMPARED: [&str; 2] = ["nominal", "optimal"];
 
 pub(crate) fn run(args: &OptimizeArgs) -> Result<(), Failure> {
+    if args.pricing.source == "cycle" {
+        return crate::cycle_search::optimize(args);
+    }
+    refuse_cycle_options(args)?;
     let pricing = Pricing::new(&args.pricing, None)?;
     check_form(args, &pricing)?;
     check_name(args, &pricing)?;
@@ -107,6 +111,25 @@ pub(crate) fn run(args: &OptimizeArgs) -> Result<(), Failure> {
     report::report(args, &outcome, &confirmation)
 }
 
+/// What belongs to whole cycles is refused, not ignored.
+fn refuse_cycle_options(args: &OptimizeArgs) -> Result<(), Failure> {
+    let given = [
+        ("--ceiling-mm", args.ceiling_mm.is_some()),
+        ("--least-advance-mm", args.least_advance_mm.is_some()),
+        (
+            "--demanded-shoulder-nm",
+            args.demanded_shoulder_nm.is_some(),
+        ),
+        ("--body-share-percent", args.body_share_percent.is_some()),
+    ];
+    match given.iter().find(|(_, given)| *given) {
+        None => Ok(()),
+        Some((option, _)) => Err(Failure::Input(anyhow!(
+            "{option} goes with --source cycle only"
+        ))),
+    }
+}
+
 /// The published problem is one of six coefficients.
 fn check_form(args: &OptimizeArgs, pricing: &Pricing) -> Result<(), Failure> {
     let published = matches!(pricing.aim, Aim::Published(_));
@@ -171,6 +194,8 @@ fn gait_name(args: &OptimizeArgs) -> String {
         crate::args::pricing::ObjectiveName::Torque => "torque",
         crate::args::pricing::ObjectiveName::Peak => "peak",
         crate::args::pricing::ObjectiveName::Heat => "heat",
+        crate::args::pricing::ObjectiveName::Advance => "advance",
+        crate::args::pricing::ObjectiveName::Speed => "speed",
     };
     let default = || format!("best-{objective}");
     args.name.clone().unwrap_or_else(default)

@@ -9,8 +9,9 @@ use anyhow::anyhow;
 use prone::gait::cycle::Cycle;
 use prone_files::{cycle_file, shipped, text_file};
 use prone_sim::LoadedRobot;
-use prone_study::cycle_search::frontier::{self, Against, Ceiling};
+use prone_study::cycle_search::frontier::{self, Hunt};
 use prone_study::cycle_search::passage::{Passage, Tried};
+use prone_study::cycle_search::price::{CycleObjective, Setting};
 use prone_study::cycle_search::settings;
 use prone_study::optimize::search::{Search, SearchEnd};
 
@@ -100,14 +101,21 @@ pub(crate) fn run(args: &UnderArgs) -> Result<(), Failure> {
 fn search(
     args: &UnderArgs,
     robot: &LoadedRobot,
-    settings: &[prone_study::cycle_search::price::Setting],
+    settings: &[Setting],
     cycles: &[Cycle],
     height: f64,
     seed: u64,
 ) -> Result<Option<(Cycle, Tried)>, Failure> {
     let base = frontier::base(robot, &settings[0], cycles, height).map_err(Failure::input)?;
-    let ceiling = Ceiling::new(robot.robot(), settings, Against::Advance, base, height)
-        .map_err(Failure::input)?;
+    let rules = settings::advance_rules(height, base);
+    let hunt = Hunt::new(
+        robot.robot(),
+        settings,
+        CycleObjective::Advance,
+        rules,
+        base,
+    )
+    .map_err(Failure::input)?;
     let mut search = Search::about_the_middle(seed, 1, args.budget);
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(args.threads.map_or(0, usize::from))
@@ -115,7 +123,7 @@ fn search(
         .map_err(|error| Failure::Work(anyhow!("cannot start worker threads: {error}")))?;
     let progress = SearchProgress::new(&search)?;
     let end = pool.install(|| {
-        ceiling.proceed(&mut search, |search| {
+        hunt.proceed(&mut search, |search| {
             progress.show(search);
             if interrupt::requested() {
                 ControlFlow::Break(())
@@ -131,7 +139,7 @@ fn search(
     let Some((_, best)) = search.best() else {
         return Ok(None);
     };
-    let Some((mut cycle, price)) = ceiling.quote(&best.point) else {
+    let Some((mut cycle, price)) = hunt.quote(&best.point) else {
         return Ok(None);
     };
     cycle.pull.name = format!(

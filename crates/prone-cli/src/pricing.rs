@@ -195,6 +195,14 @@ impl Pricing {
 
 /// The objective; options of the other kind are refused, not ignored.
 fn aim(args: &PricingArgs) -> Result<Aim, Failure> {
+    if matches!(
+        args.objective,
+        ObjectiveName::Advance | ObjectiveName::Speed
+    ) {
+        return Err(Failure::Input(anyhow!(
+            "--objective advance and speed are those of whole cycles: they go with --source cycle only"
+        )));
+    }
     let refuse = |given: &[(&str, bool)], reason: &str| {
         let option = given.iter().find(|(_, given)| *given);
         option.map_or(Ok(()), |(option, _)| {
@@ -278,6 +286,11 @@ fn base(args: &PricingArgs, priced: Option<&Gait>) -> Result<Gait, Failure> {
 
 fn source(given: &str) -> Result<LoadedSource, Failure> {
     match given {
+        "cycle" => {
+            return Err(Failure::Input(anyhow!(
+                "--source cycle is for prone optimize: prone crawl run prices a cycle"
+            )));
+        }
         "statics" => return Ok(LoadedSource::Statics),
         "dynamics" => return Ok(LoadedSource::Dynamics),
         _ => {}

@@ -36,6 +36,8 @@ Examples:
   prone optimize --objective published --source table.csv --seed 1 --runs 20 --out out/published
   prone optimize --objective published --source table.csv --solver ga --seed 1 --out out/replication
   prone optimize --objective heat --source statics --seed 7 --budget 20000 --out out/heat --resume
+  prone optimize --objective heat --source cycle --from low-175 --seed 1 --runs 6 --out out/efficient
+  prone optimize --objective speed --source cycle --ceiling-mm 180 --seed 1 --out out/fast
 
 The folder appears when all is done: gait.toml (for every other command), result.json, history.csv,
 confirmation.csv (the found gait simulated at other durations and in both contact regimes, beside
@@ -74,6 +76,18 @@ pub(crate) struct OptimizeArgs {
     /// Durations at which the found gait is simulated, s
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = super::phase_duration, default_value = "1,2,3,4,5,6,7,8,9,10")]
     pub(crate) confirm_durations: Vec<prone::gait::PhaseDuration>,
+    /// cycle: height below which everything stays, mm [default: none]
+    #[arg(long, value_name = "H", value_parser = super::passage::height, allow_negative_numbers = true)]
+    pub(crate) ceiling_mm: Option<f64>,
+    /// cycle: least advance per cycle, mm [default: 120 for heat, else 10]
+    #[arg(long, value_name = "MM", value_parser = super::passage::height, allow_negative_numbers = true)]
+    pub(crate) least_advance_mm: Option<f64>,
+    /// cycle: largest torque that a shoulder's servo may demand, N·m [default: any]
+    #[arg(long, value_name = "NM", value_parser = torque, allow_negative_numbers = true)]
+    pub(crate) demanded_shoulder_nm: Option<f64>,
+    /// cycle: largest share of the weight on trunk and legs in the pull, percent [default: any]
+    #[arg(long, value_name = "P", value_parser = percent, allow_negative_numbers = true)]
+    pub(crate) body_share_percent: Option<f64>,
     /// Name of the found gait [default: best-OBJECTIVE]
     #[arg(long, value_name = "NAME", value_parser = name)]
     pub(crate) name: Option<String>,
@@ -131,6 +145,23 @@ fn positive(text: &str) -> Result<f64, String> {
         Err(format!(
             "not a number of seconds greater than 0, up to {LONGEST_S}"
         ))
+    }
+}
+
+fn torque(text: &str) -> Result<f64, String> {
+    between(text, 0.01, 1000.0)
+}
+
+fn percent(text: &str) -> Result<f64, String> {
+    between(text, 0.0, 100.0)
+}
+
+fn between(text: &str, least: f64, most: f64) -> Result<f64, String> {
+    let number: f64 = text.trim().parse().map_err(|_| "not a number".to_owned())?;
+    if (least..=most).contains(&number) {
+        Ok(number)
+    } else {
+        Err(format!("{number} is outside {least}..{most}"))
     }
 }
 

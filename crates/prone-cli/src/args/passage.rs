@@ -105,7 +105,7 @@ pub(crate) enum AgainstName {
 }
 
 /// A height as typed, mm: above nothing, below any room.
-fn height(text: &str) -> Result<f64, String> {
+pub(crate) fn height(text: &str) -> Result<f64, String> {
     within(text, 1.0, 10_000.0)
 }
 

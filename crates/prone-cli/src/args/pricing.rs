@@ -12,9 +12,10 @@ pub(crate) struct PricingArgs {
     /// What a gait is priced by
     #[arg(long, value_enum)]
     pub(crate) objective: ObjectiveName,
-    /// Where torques come from: `dynamics` (each gait simulated, regime torque-study, from its own
-    /// first pose), `statics` (the static solver), or a torque map's CSV file
-    #[arg(long, value_name = "FILE|statics|dynamics")]
+    /// Where torques come from: `dynamics` (each pull simulated, regime torque-study, from its own
+    /// first pose), `statics` (the static solver), a torque map's CSV file, or `cycle` (whole cycles
+    /// simulated, regime locomotion)
+    #[arg(long, value_name = "FILE|statics|dynamics|cycle")]
     pub(crate) source: String,
     /// torque: weights of ankle, knee, hip, shoulder [default: 1,1,1,1]
     #[arg(
@@ -70,8 +71,12 @@ pub(crate) enum ObjectiveName {
     Torque,
     /// Largest torque over the maker's effort limit
     Peak,
-    /// ∫ Σ (τ/nominal torque)² dt, s: what warms the motors
+    /// ∫ Σ (τ/nominal torque)² dt, s: what warms the motors; of cycles per metre, s/m
     Heat,
+    /// Of cycles: minus the advance per cycle, m
+    Advance,
+    /// Of cycles: minus the speed, m/s
+    Speed,
 }
 
 /// What a price is divided by.

@@ -1,6 +1,6 @@
 //! The curve of ceiling against advance, and whether a robot gets under a given one.
 
-use prone::gait::cycle::{Cycle, TimeScale};
+use prone::gait::cycle::Cycle;
 use prone::robot::Robot;
 use prone_sim::LoadedRobot;
 use serde::{Deserialize, Serialize};
@@ -10,17 +10,8 @@ use super::form::{CycleForm, CycleFormError};
 use super::price::{
     CycleObjective, CyclePrice, CyclePricer, CycleRules, PricerError, Setting, Trial, try_out,
 };
-use super::settings::{self, HOLDS, SettingError};
+use super::settings::{HOLDS, SettingError};
 use crate::optimize::search::{Search, SearchEnd};
-
-/// What a frontier searches at each ceiling.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Against {
-    /// The largest advance per cycle.
-    Advance,
-    /// The least heat per metre.
-    Heat,
-}
 
 /// Why nothing can be said.
 #[derive(Debug, thiserror::Error)]
@@ -42,49 +33,28 @@ pub enum FrontierError {
     },
 }
 
-/// One ceiling's searches.
-pub struct Ceiling<'a> {
+/// What is searched about one cycle.
+pub struct Hunt<'a> {
     form: CycleForm,
     pricer: CyclePricer<'a>,
-    height: f64,
 }
 
-impl<'a> Ceiling<'a> {
-    /// Searches about a cycle under a height, m, in settings made by [`settings`].
+impl<'a> Hunt<'a> {
+    /// Searches about a cycle in settings made by [`settings`].
     ///
     /// # Errors
     /// [`FrontierError`].
     pub fn new(
         robot: &Robot,
         settings: &'a [Setting],
-        against: Against,
+        objective: CycleObjective,
+        rules: CycleRules,
         base: &Cycle,
-        height: f64,
     ) -> Result<Self, FrontierError> {
-        let (objective, rules) = match against {
-            Against::Advance => (
-                CycleObjective::Advance,
-                settings::advance_rules(height, base.duration(TimeScale::ONE)),
-            ),
-            Against::Heat => (
-                CycleObjective::Heat,
-                CycleRules {
-                    ceiling: height,
-                    advance: LEAST_ADVANCE,
-                    ..CycleRules::FREE
-                },
-            ),
-        };
         Ok(Self {
             form: CycleForm::about(robot, base)?,
             pricer: CyclePricer::new(settings, objective, rules, base)?,
-            height,
         })
-    }
-
-    /// Height below which everything has to stay, m.
-    pub const fn height(&self) -> f64 {
-        self.height
     }
 
     /// Numbers of a point.
@@ -112,9 +82,6 @@ impl<'a> Ceiling<'a> {
         Some((cycle, price))
     }
 }
-
-/// Least advance of a cycle that is searched for its heat, m: slower ones stand still.
-const LEAST_ADVANCE: f64 = 0.12;
 
 /// What a confirmation says of a cycle under a ceiling.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

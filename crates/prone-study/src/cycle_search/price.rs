@@ -8,7 +8,7 @@
 //! not simulated: each counts as [`UNTRIED`].
 
 use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale};
-use prone::gait::{Clamp, LimitsPolicy};
+use prone::gait::{Clamp, LimitsPolicy, PhaseDuration};
 use prone::robot::{JointAngles, JointId};
 use prone_sim::World;
 use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, Detail, End, Straight};
@@ -29,6 +29,17 @@ pub enum CycleObjective {
     Speed,
 }
 
+impl CycleObjective {
+    /// Name in files and records.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Heat => "heat",
+            Self::Advance => "advance",
+            Self::Speed => "speed",
+        }
+    }
+}
+
 /// One way to crawl a cycle.
 #[derive(Debug, Clone)]
 pub struct Setting {
@@ -38,6 +49,8 @@ pub struct Setting {
     pub world: World,
     /// How slowly.
     pub scale: TimeScale,
+    /// How long the pull lasts instead, before the scale.
+    pub pull: Option<PhaseDuration>,
     /// How many cycles; the last one is measured.
     pub cycles: usize,
     /// What it is for.
@@ -320,7 +333,11 @@ const PLAN_SAMPLES: usize = 8;
 /// # Errors
 /// [`CrawlError`].
 pub fn try_out(setting: &Setting, cycle: &Cycle) -> Result<Trial, CrawlError> {
-    let cycles = std::slice::from_ref(cycle);
+    let cycle = Cycle {
+        pull_duration: setting.pull.unwrap_or(cycle.pull_duration),
+        ..cycle.clone()
+    };
+    let cycles = std::slice::from_ref(&cycle);
     let plan = CrawlPlan {
         cycles,
         scale: setting.scale,

@@ -12,19 +12,30 @@ use crate::tables::{finish, number};
 /// All searches of a frontier.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Frontier {
-    /// What was searched under each ceiling: `advance` or `heat`.
-    pub against: &'static str,
+    /// What was searched: `advance`, `speed` or `heat`.
+    pub objective: &'static str,
     /// Distance kept from the ceiling, mm.
     pub margin_mm: f64,
     /// By ceiling and seed.
     pub found: Vec<Found>,
+    /// Other cycles in the same settings, for comparison.
+    pub compared: Vec<Compared>,
+}
+
+/// Another cycle in the settings of a confirmation.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Compared {
+    /// Its name.
+    pub gait: String,
+    /// What it does.
+    pub confirmed: Confirmed,
 }
 
 /// What one search found.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Found {
-    /// The ceiling, mm.
-    pub ceiling_mm: f64,
+    /// The ceiling, mm, where there is one.
+    pub ceiling_mm: Option<f64>,
     /// The seed.
     pub seed: u64,
     /// Evaluations.
@@ -42,7 +53,7 @@ pub struct Found {
 impl Found {
     /// A run's best cycle.
     pub fn new(
-        ceiling_mm: f64,
+        ceiling_mm: Option<f64>,
         seed: u64,
         evaluations: u64,
         cycle: &Cycle,
@@ -69,7 +80,11 @@ impl Found {
                 top_mm: Some(top),
                 ..
             } => format!("{setting}: {advance:.1} mm per cycle, {top:.1} mm high."),
-            row => format!("{}: {}.", row.setting, row.refused.as_deref().unwrap_or("not known")),
+            row => format!(
+                "{}: {}.",
+                row.setting,
+                row.refused.as_deref().unwrap_or("not known")
+            ),
         });
         settings.collect::<Vec<_>>().join("\n")
     }
@@ -101,7 +116,7 @@ pub fn csv(frontier: &Frontier) -> Result<Vec<u8>, csv::Error> {
     for found in &frontier.found {
         for row in &found.confirmed.settings {
             table.write_record([
-                found.ceiling_mm.to_string(),
+                maybe(found.ceiling_mm, 1),
                 found.seed.to_string(),
                 row.setting.clone(),
                 maybe(row.mm_per_cycle, 3),
@@ -123,7 +138,10 @@ pub fn csv(frontier: &Frontier) -> Result<Vec<u8>, csv::Error> {
 ///
 /// # Errors
 /// [`csv::Error`], which writing to memory does not produce.
-pub fn history_csv(ceilings_mm: &[f64], searches: &[Search]) -> Result<Vec<u8>, csv::Error> {
+pub fn history_csv(
+    ceilings_mm: &[Option<f64>],
+    searches: &[Search],
+) -> Result<Vec<u8>, csv::Error> {
     let mut table = csv::Writer::from_writer(Vec::new());
     table.write_record([
         "ceiling_mm",
@@ -139,7 +157,7 @@ pub fn history_csv(ceilings_mm: &[f64], searches: &[Search]) -> Result<Vec<u8>, 
         for run in search.runs() {
             for row in &run.history.0 {
                 table.write_record([
-                    ceiling.to_string(),
+                    ceiling.map_or_else(String::new, |ceiling| number(ceiling, 1)),
                     run.seed.to_string(),
                     row.generation.to_string(),
                     row.evaluations.to_string(),

@@ -3,7 +3,8 @@
 //! All are the locomotion regime, with the maker's effort and joint limits on; friction, servo
 //! gains, time scale and the engine's step are what its name says.
 
-use prone::gait::cycle::{TimeScale, TimeScaleError};
+use prone::gait::cycle::{Cycle, TimeScale, TimeScaleError};
+use prone::gait::{PhaseDuration, PhaseDurationError};
 use prone_sim::regime::Servo;
 use prone_sim::{LoadedRobot, Regime, World, WorldError};
 
@@ -32,6 +33,9 @@ pub enum SettingError {
     /// A time scale that no crawl can have.
     #[error(transparent)]
     Scale(#[from] TimeScaleError),
+    /// A duration that no pull can have.
+    #[error(transparent)]
+    Duration(#[from] PhaseDurationError),
 }
 
 /// Makes settings of one robot.
@@ -53,6 +57,7 @@ impl Maker<'_> {
             name: name.to_owned(),
             world: World::new(self.robot, regime)?,
             scale: TimeScale::new(scale)?,
+            pull: None,
             cycles,
             role,
         })
@@ -128,12 +133,41 @@ pub fn for_confirmation(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingErro
     ])
 }
 
-/// Rules of a search of the advance under a ceiling, m; no cycle may be slower than the one that
-/// it is searched about, s.
-pub fn advance_rules(ceiling: f64, seconds: f64) -> CycleRules {
+/// For a confirmation of the heat: servos, frictions and the duration of the pull.
+///
+/// # Errors
+/// [`SettingError`].
+pub fn for_heat_confirmation(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
+    let mut settings = for_confirmation(robot)?;
+    let maker = maker(robot);
+    for seconds in [1.0, 2.0, 3.0] {
+        let name = format!("pull of {seconds} s");
+        settings.push(Setting {
+            pull: Some(PhaseDuration::new(seconds)?),
+            ..maker.make(&name, maker.regime, 1.0, 3, Role::Keep(HOLDS))?
+        });
+    }
+    Ok(settings)
+}
+
+/// Rules of a search of advance or speed below a height, m: no slower than the cycle that it is
+/// searched about.
+pub fn advance_rules(height: f64, base: &Cycle) -> CycleRules {
     CycleRules {
-        ceiling,
-        seconds,
+        ceiling: height,
+        seconds: base.duration(TimeScale::ONE),
         ..CycleRules::FREE
     }
 }
+
+/// Rules of a search of the heat per metre below a height, m.
+pub fn heat_rules(height: f64) -> CycleRules {
+    CycleRules {
+        ceiling: height,
+        advance: LEAST_ADVANCE,
+        ..CycleRules::FREE
+    }
+}
+
+/// Least advance of a cycle that is searched for its heat, m: slower ones stand still.
+pub const LEAST_ADVANCE: f64 = 0.12;

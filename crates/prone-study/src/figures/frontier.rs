@@ -52,8 +52,9 @@ pub fn figure(frontier: &Frontier) -> Option<Figure> {
              Ours, simulated: friction 0.7, the maker's effort and joint limits on, 2.5 ms steps. \
              A search holds where, without touching the ceiling, it keeps 80 % of its advance at \
              friction 0.4 and 1, 0.8 and 1.7 of its duration, 1 ms steps and with stiff servos.",
-            match frontier.against {
+            match frontier.objective {
                 "heat" => "least heat per metre",
+                "speed" => "largest speed",
                 _ => "largest advance",
             },
             frontier.margin_mm
@@ -96,7 +97,7 @@ fn panel(
         };
         let value = of(row).filter(|value| value.is_finite())?;
         Some((
-            (found.ceiling_mm, value),
+            (found.ceiling_mm?, value),
             fill,
             found.value.unwrap_or(f64::INFINITY),
         ))
