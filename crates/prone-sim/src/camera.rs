@@ -9,10 +9,12 @@
 //! 1. one ray per pixel from the camera finds geom, point and normal (`trace`);
 //! 2. rays from the lamps find how much of the light reaches each of these points (`light`);
 //! 3. pixels beside an edge are cast again with more rays, and every ray is coloured (`shade`);
-//! 4. the silhouette is darkened, so that a white robot stands out on white paper (`outline`).
+//! 4. the silhouette is darkened, so that a white robot stands out on white paper (`outline`);
+//! 5. plates and panels of a scene are laid over it as tinted glass (`glass`).
 //!
 //! Nothing is random and nothing depends on a clock: the same state gives the same bytes.
 
+mod glass;
 mod light;
 mod outline;
 mod picture;
@@ -24,6 +26,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use mujoco_rs::prelude::{MjData, MjModel};
 
+pub(crate) use glass::GLASS_GROUP;
 pub use picture::{Picture, PictureError};
 
 use light::{Openness, Studio};
@@ -104,14 +107,15 @@ impl Camera {
 /// Takes a picture of `size` (width, height) pixels.
 ///
 /// Geoms of groups 0 to 2 are visible, as in the engine's own viewer; planes are drawn as a floor
-/// with lines every 100 mm and stronger lines every 500 mm. Transparency is not drawn, but a
-/// fully transparent geom is invisible.
+/// with lines every 100 mm and stronger lines every 500 mm. Transparency is not drawn but for the
+/// plates and panels of a scene; a fully transparent geom is invisible.
 ///
 /// `data` must be up to date: call `forward()` after changing the pose. It is borrowed mutably
 /// because the engine casts rays with scratch memory of its own; the state does not change.
 pub fn ray_cast(data: &mut MjData<Arc<MjModel>>, camera: &Camera, size: (usize, usize)) -> Picture {
     let (width, height) = size;
     let looks = Looks::of(data.model());
+    let has_glass = Looks::has_glass(data.model());
     let lens = Lens::new(camera, size);
     let studio = Studio::around(camera);
     let mut tracer = Tracer::new(data);
@@ -135,6 +139,9 @@ pub fn ray_cast(data: &mut MjData<Arc<MjModel>>, camera: &Camera, size: (usize, 
     frame.colour_pixels(&view, &lens);
     frame.refine_edges(&mut tracer, &view, &lens);
     outline::draw(&mut frame.colours, &frame.cover, width);
+    if has_glass {
+        glass::draw(&mut frame, &mut tracer, &view, &lens);
+    }
     Picture::from_linear(size, &frame.colours)
 }
 

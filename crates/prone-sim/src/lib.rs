@@ -1,8 +1,9 @@
 //! Crawling robots in the `MuJoCo` engine.
 //!
 //! [`LoadedRobot`] turns a robot's two files into [`prone::robot::Robot`]; a [`World`] puts it on a floor
-//! under a named contact [`regime`]; a [`Simulation`] steps it with the servo law of the published
-//! study; [`pull`] runs one closed-chain phase and records it, [`crawl`] whole cycles; [`camera`] takes pictures on the
+//! or into a scene under a named contact [`regime`]; a [`Simulation`] steps it with the servo law of the published
+//! study; [`pull`] runs one closed-chain phase and records it, [`crawl`] whole cycles;
+//! [`camera`] takes pictures on the
 //! CPU.
 //!
 //! The engine's model is shared, its data belongs to one run: runs on any number of threads give
@@ -20,7 +21,9 @@ mod world;
 
 pub use load::{LoadError, LoadedRobot, ModelProblem, RobotFiles};
 pub use regime::Regime;
-pub use simulation::{Placement, Simulation, SimulationError, Snapshot, StepMeans};
+pub use simulation::{
+    ObstacleContact, Placement, Simulation, SimulationError, Snapshot, StepMeans,
+};
 pub use world::{World, WorldError};
 
 /// The version of the engine that is linked, as it reports itself.

@@ -11,6 +11,10 @@ use prone::robot::{BodyPoses, ContactGroup, JointAngles, JointId, Robot};
 use crate::regime::{CONTROL_STEP, SERVO_RATE, SERVO_SPEED, Servo};
 use crate::world::World;
 
+mod contacts;
+
+pub use contacts::ObstacleContact;
+
 /// Coordinates of a free root: position and quaternion.
 const FREE_JOINT: usize = 7;
 /// Speeds of a free root: three linear, three angular.
@@ -242,14 +246,13 @@ impl<'w> Simulation<'w> {
         self.steps
     }
 
-    /// What the ground carries: parts of the robot that press on one another do not count.
+    /// What the ground carries: parts of the robot that press on one another do not count, nor
+    /// does what it bumps into.
     fn add_contacts(&self, sums: &mut [f64; 4]) {
-        for (index, contact) in self.data.contact().iter().enumerate() {
-            let group = |geom| self.world.geom_groups[usize::try_from(geom).ok()?];
-            let [one, other] = contact.geom.map(group);
-            if let Some(group) = one.xor(other) {
-                let [normal, ..] = self.data.contact_force(index);
-                sums[group_index(group)] += normal;
+        for contact in self.contacts() {
+            if self.world.is_ground(contact.with) {
+                let body = &self.robot().bodies[contact.body.0];
+                sums[group_index(body.contact_group)] += contact.normal();
             }
         }
     }

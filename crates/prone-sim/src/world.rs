@@ -1,4 +1,7 @@
-//! A robot on a floor under a contact regime: the engine's compiled model.
+//! A robot in a scene under a contact regime: the engine's compiled model.
+
+mod friction;
+mod scenery;
 
 use std::sync::Arc;
 
@@ -6,12 +9,14 @@ use mujoco_rs::mujoco_c::mjNGAIN;
 use mujoco_rs::prelude::*;
 use mujoco_rs::wrappers::mj_editing::{MjsGeom, MjtGeomInertia, MjtLimited};
 
-use prone::robot::{BodyId, ContactGroup, Joint, Range, Robot};
+use prone::robot::{BodyId, Joint, Range, Robot};
+use prone::scene::{Obstacle, Scene, SceneError};
 use prone::statics::GRAVITY;
 
 use crate::engine_log;
 use crate::load::LoadedRobot;
 use crate::regime::{self, Effort, Regime, Servo, Stops};
+use scenery::Scenery;
 
 /// Rolling and torsional friction, m: the engine's defaults. Contacts are three-dimensional
 /// (condim 3), which leaves both unused; they are stated so that no hidden default is.
@@ -27,8 +32,23 @@ pub struct World {
     robot: Arc<Robot>,
     regime: Regime,
     stops: Vec<Range>,
-    /// Contact group of each geom of the engine's model; `None` for the environment.
-    pub(crate) geom_groups: Vec<Option<ContactGroup>>,
+    scene: Arc<Scene>,
+    obstacles: Arc<[Obstacle]>,
+    /// What each geom of the engine's model is.
+    pub(crate) geom_roles: Vec<GeomRole>,
+}
+
+/// What a geom of the engine's model is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum GeomRole {
+    /// Part of a body of the robot.
+    Robot(BodyId),
+    /// The floor, or rough ground on it.
+    Floor,
+    /// An obstacle, by its place in [`Scene::obstacles`].
+    Obstacle(usize),
+    /// Seen, never touched.
+    Marker,
 }
 
 /// Why a world cannot be made.
@@ -44,6 +64,14 @@ pub enum WorldError {
         /// The engine's message.
         message: String,
     },
+    /// The scene holds what cannot be built.
+    #[error("scene {scene}: {error}")]
+    Scene {
+        /// The scene's name.
+        scene: String,
+        /// What is wrong with it.
+        error: SceneError,
+    },
 }
 
 impl World {
@@ -52,31 +80,42 @@ impl World {
     /// # Errors
     /// [`WorldError::Compile`] where the engine refuses the model.
     pub fn new(loaded: &LoadedRobot, regime: Regime) -> Result<Self, WorldError> {
+        Self::in_scene(loaded, regime, &Scene::level())
+    }
+
+    /// Puts a robot into a scene. The scene's friction, where it has one, replaces the regime's.
+    ///
+    /// # Errors
+    /// [`WorldError`] where the scene is invalid or the engine refuses the model.
+    pub fn in_scene(
+        loaded: &LoadedRobot,
+        regime: Regime,
+        scene: &Scene,
+    ) -> Result<Self, WorldError> {
+        scene.check().map_err(|error| WorldError::Scene {
+            scene: scene.name.clone(),
+            error,
+        })?;
         let robot = Arc::clone(loaded.robot());
         let stops = match regime.stops {
             Stops::Maker => robot.stops(),
             Stops::Study => robot.study_stops(),
         };
-        let model = compile(loaded, regime, &stops).map_err(|error| WorldError::Compile {
-            robot: robot.name.clone(),
-            regime: regime.name,
-            message: engine_log::one_line(&error.to_string()),
-        })?;
-        let geom_groups = model
-            .geom_bodyid()
-            .iter()
-            .map(|&body| {
-                // The engine's body 0 is the world; the robot's bodies follow in order.
-                let index = usize::try_from(body).ok()?.checked_sub(1)?;
-                Some(robot.bodies[BodyId(index).0].contact_group)
-            })
-            .collect();
+        let scenery = Scenery::of(scene);
+        let model =
+            compile(loaded, regime, &stops, &scenery).map_err(|error| WorldError::Compile {
+                robot: robot.name.clone(),
+                regime: regime.name,
+                message: engine_log::one_line(&error.to_string()),
+            })?;
         Ok(Self {
+            geom_roles: geom_roles(&model, &scenery),
             model: Arc::new(model),
             robot,
             regime,
             stops,
-            geom_groups,
+            scene: Arc::new(scene.clone()),
+            obstacles: scene.obstacles().into(),
         })
     }
 
@@ -94,19 +133,63 @@ impl World {
     pub fn stops(&self) -> &[Range] {
         &self.stops
     }
+
+    /// What the robot is in.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// [`Scene::obstacles`] of the scene.
+    pub fn obstacles(&self) -> &[Obstacle] {
+        &self.obstacles
+    }
+
+    /// Whether a geom is there to be crawled on.
+    pub(crate) fn is_ground(&self, role: GeomRole) -> bool {
+        match role {
+            GeomRole::Floor => true,
+            GeomRole::Obstacle(index) => self.obstacles[index].kind.is_ground(),
+            GeomRole::Robot(_) | GeomRole::Marker => false,
+        }
+    }
 }
 
-fn compile(loaded: &LoadedRobot, regime: Regime, stops: &[Range]) -> Result<MjModel, MjEditError> {
+/// What each geom is. The engine numbers the world's geoms first, in the order in which they were
+/// added; a robot's model has none there.
+fn geom_roles(model: &MjModel, scenery: &Scenery) -> Vec<GeomRole> {
+    let mut scenery = scenery.roles().into_iter();
+    let bodies = model.geom_bodyid().iter();
+    bodies
+        .map(|&body| {
+            // The engine's body 0 is the world; the robot's bodies follow in order.
+            match usize::try_from(body)
+                .ok()
+                .and_then(|body| body.checked_sub(1))
+            {
+                Some(index) => GeomRole::Robot(BodyId(index)),
+                None => scenery.next().unwrap_or(GeomRole::Floor),
+            }
+        })
+        .collect()
+}
+
+fn compile(
+    loaded: &LoadedRobot,
+    regime: Regime,
+    stops: &[Range],
+    scenery: &Scenery,
+) -> Result<MjModel, MjEditError> {
     engine_log::silence();
     let robot = loaded.robot();
     let mut spec = MjSpec::from_xml_string(loaded.mjcf())?;
-    *spec.option_mut() = options(regime);
+    *spec.option_mut() = options(regime, scenery.slope());
     let [torsional, rolling] = UNUSED_FRICTION;
     let friction = [regime.friction, torsional, rolling];
     for geom in spec.geom_iter_mut() {
         set_contact(geom, friction);
     }
     add_floor(&mut spec, friction);
+    scenery.add_to(&mut spec, friction)?;
     for joint in &robot.joints {
         let limit = match regime.effort {
             Effort::Published => joint.effort_limit,
@@ -129,14 +212,19 @@ fn compile(loaded: &LoadedRobot, regime: Regime, stops: &[Range]) -> Result<MjMo
         );
         model.jnt_range_mut()[joint] = [stop.lower, stop.upper];
     }
+    if let Some(sides) = scenery.friction() {
+        let roles = geom_roles(&model, scenery);
+        friction::set_by_side(&mut model, &roles, robot, sides);
+    }
     Ok(model)
 }
 
 /// All that the model's `<option>` could say, replaced.
-fn options(regime: Regime) -> MjOption {
+fn options(regime: Regime, slope: f64) -> MjOption {
     MjOption {
         timestep: regime.time_step,
-        gravity: [0.0, 0.0, -GRAVITY],
+        // Uphill is +x. A level floor has +0 there, not -0.
+        gravity: [0.0 - GRAVITY * slope.sin(), 0.0, -GRAVITY * slope.cos()],
         integrator: MjtIntegrator::mjINT_IMPLICITFAST as i32,
         solver: MjtSolver::mjSOL_NEWTON as i32,
         cone: MjtCone::mjCONE_ELLIPTIC as i32,
@@ -159,16 +247,21 @@ fn set_contact(geom: &mut MjsGeom, friction: [f64; 3]) {
         .with_adhesion(0.0);
 }
 
-/// A level plane. Every property is stated: a new geom starts from the model's `<default>`.
+/// A level plane.
 fn add_floor(spec: &mut MjSpec, friction: [f64; 3]) {
-    // Without a name, so that it cannot clash with one in the model.
-    let floor = spec.world_body_mut().add_geom();
-    set_contact(floor, friction);
-    floor.alt_mut().switch_quat();
-    floor
+    add_world_geom(spec, friction)
         .with_type(MjtGeomBase::mjGEOM_PLANE)
-        .with_size([FLOOR_HALF_LENGTH, FLOOR_HALF_LENGTH, 0.1])
-        .with_pos([0.0; 3])
+        .with_size([FLOOR_HALF_LENGTH, FLOOR_HALF_LENGTH, 0.1]);
+}
+
+/// A geom that stands still and that the robot touches. Every property is stated: a new geom
+/// starts from the model's `<default>`.
+fn add_world_geom(spec: &mut MjSpec, friction: [f64; 3]) -> &mut MjsGeom {
+    // Without a name, so that it cannot clash with one in the model.
+    let geom = spec.world_body_mut().add_geom();
+    set_contact(geom, friction);
+    geom.alt_mut().switch_quat();
+    geom.with_pos([0.0; 3])
         .with_quat([1.0, 0.0, 0.0, 0.0])
         .with_fromto([f64::NAN; 6]) // unset
         // The robot's geoms touch whatever offers itself (contype 1), never one another.
@@ -181,7 +274,7 @@ fn add_floor(spec: &mut MjSpec, friction: [f64; 3]) {
         .with_typeinertia(MjtGeomInertia::mjINERTIA_VOLUME)
         .with_fluid_ellipsoid(0.0)
         .with_material("")
-        .with_group(0);
+        .with_group(0)
 }
 
 /// A velocity servo on a hinge: gain, N·m·s/rad, and largest torque, N·m. Every property is stated here too.

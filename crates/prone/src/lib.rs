@@ -18,6 +18,7 @@ pub mod frames;
 pub mod gait;
 pub mod mapping;
 pub mod robot;
+pub mod scene;
 pub mod statics;
 pub mod steering;
 pub mod torque_map;

@@ -38,6 +38,14 @@ pub(super) struct Openness {
     pub surroundings: f64,
 }
 
+impl Openness {
+    /// All of it.
+    pub(super) const FULL: Self = Self {
+        key: 1.0,
+        surroundings: 1.0,
+    };
+}
+
 /// The lamps around one target.
 pub(super) struct Studio {
     /// Unit vector from the target to the middle of the key lamp.

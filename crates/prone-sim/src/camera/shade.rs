@@ -4,6 +4,7 @@ use glam::DVec3;
 use mujoco_rs::prelude::{MjModel, MjtGeomBase};
 
 use super::Camera;
+use super::glass::GLASS_GROUP;
 use super::light::{Openness, Studio};
 use super::picture::linear_from_srgb;
 use super::trace::Hit;
@@ -55,7 +56,11 @@ struct Grid {
 #[derive(Debug, Clone, Copy)]
 struct Look {
     is_floor: bool,
+    /// Stands still: no part of the robot.
+    is_scenery: bool,
     colour: DVec3,
+    /// How much it covers where it is glass, 0..=1.
+    alpha: f64,
     /// Strength of highlights, 0..=1, and how narrow they are, 0..=1: the engine's scales.
     specular: f64,
     shininess: f64,
@@ -79,16 +84,36 @@ impl Looks {
     pub(super) fn is_subject(&self, hit: Option<&Hit>) -> bool {
         hit.is_some_and(|hit| !self.0[hit.geom].is_floor)
     }
+
+    pub(super) fn is_scenery(&self, hit: &Hit) -> bool {
+        self.0[hit.geom].is_scenery
+    }
+
+    /// Colour and cover of what a ray found, as glass.
+    pub(super) fn tint(&self, hit: &Hit) -> (DVec3, f64) {
+        let look = &self.0[hit.geom];
+        (look.colour, look.alpha)
+    }
+
+    /// Whether anything is glass.
+    pub(super) fn has_glass(model: &MjModel) -> bool {
+        let mut geoms = model.geom_group().iter().zip(model.geom_bodyid());
+        geoms.any(|(&group, &body)| group == GLASS_GROUP && body == 0)
+    }
 }
 
 fn look_of(model: &MjModel, geom: usize) -> Look {
     let is_floor = model.geom_type()[geom] == MjtGeomBase::mjGEOM_PLANE;
+    let is_scenery = model.geom_bodyid()[geom] == 0;
+    let alpha = model.geom_rgba()[geom][3].into();
     let linear = |[red, green, blue, _]: [f32; 4]| {
         DVec3::new(red.into(), green.into(), blue.into()).map(linear_from_srgb)
     };
     match usize::try_from(model.geom_matid()[geom]) {
         Ok(material) => Look {
             is_floor,
+            is_scenery,
+            alpha,
             colour: linear(model.mat_rgba()[material]),
             specular: model.mat_specular()[material].into(),
             shininess: model.mat_shininess()[material].into(),
@@ -97,6 +122,8 @@ fn look_of(model: &MjModel, geom: usize) -> Look {
         // The engine's defaults for a geom without a material.
         Err(_) => Look {
             is_floor,
+            is_scenery,
+            alpha,
             colour: linear(model.geom_rgba()[geom]),
             specular: 0.5,
             shininess: 0.5,
@@ -153,7 +180,7 @@ impl View<'_> {
     }
 
     /// Light on a matt white surface.
-    fn diffuse_light(&self, normal: DVec3, open: Openness) -> DVec3 {
+    pub(super) fn diffuse_light(&self, normal: DVec3, open: Openness) -> DVec3 {
         let upward = 0.5 + 0.5 * normal.z;
         let key = normal.dot(self.studio.toward_key).max(0.0);
         BOUNCE.lerp(SKY, upward) * open.surroundings + KEY * key * open.key

@@ -177,3 +177,25 @@ fn looking_straight_down_has_forward_at_the_top() {
     };
     assert_eq!(camera.axes(), [DVec3::NEG_Z, DVec3::NEG_Y, DVec3::X]);
 }
+
+/// A pane of a scene before the ball tints it and hides nothing; behind the ball it is not seen.
+#[test]
+fn glass_tints_what_is_behind_it() {
+    let at = |pane_x: f64| {
+        let xml = format!(
+            "<mujoco><worldbody>
+               <geom type='sphere' size='.05' pos='0 0 .5' rgba='1 0 0 1'/>
+               <geom type='box' size='.001 .2 .2' pos='{pane_x} 0 .5' rgba='0 0 1 .3' group='5'/>
+             </worldbody></mujoco>"
+        );
+        let mut data = MjData::new(Arc::new(MjModel::from_xml_string(&xml).unwrap()));
+        data.forward();
+        let picture = ray_cast(&mut data, &AHEAD, SIZE);
+        let (column, row) = pixel_of(DVec3::new(0.0, 0.0, 0.5));
+        pixel(&picture, column, row)
+    };
+    let (before, behind, away) = (at(-0.5), at(0.5), at(-9.0));
+    assert_eq!(behind, away);
+    assert!(before[2] > away[2] + 20.0, "bluer: {before:?} {away:?}");
+    assert!(before[0] > 100.0 && before[0] < away[0], "still red: {before:?} {away:?}");
+}

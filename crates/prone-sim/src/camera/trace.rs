@@ -5,6 +5,8 @@ use std::sync::Arc;
 use glam::DVec3;
 use mujoco_rs::prelude::{MjData, MjModel};
 
+use super::glass;
+
 /// The visible geom groups, 0 to 2: those that the engine's viewer shows from the start.
 const VISIBLE_GROUPS: [u8; 6] = [1, 1, 1, 0, 0, 0];
 /// Farther than this nothing is seen, m.
@@ -35,14 +37,28 @@ impl<'a> Tracer<'a> {
         Self { data }
     }
 
-    /// Follows unit directions from one origin.
+    /// Follows unit directions from one origin to what is solid.
     pub(super) fn hits(&mut self, origin: DVec3, directions: &[DVec3]) -> Vec<Option<Hit>> {
+        self.hits_in(&VISIBLE_GROUPS, origin, directions)
+    }
+
+    /// Follows unit directions from one origin to glass.
+    pub(super) fn glass_hits(&mut self, origin: DVec3, directions: &[DVec3]) -> Vec<Option<Hit>> {
+        self.hits_in(&glass::GROUPS, origin, directions)
+    }
+
+    fn hits_in(
+        &mut self,
+        groups: &[u8; 6],
+        origin: DVec3,
+        directions: &[DVec3],
+    ) -> Vec<Option<Hit>> {
         let arrays: Vec<[f64; 3]> = directions.iter().map(DVec3::to_array).collect();
         let mut normals = vec![[0.0; 3]; arrays.len()];
         let (geoms, distances) = self.data.multi_ray(
             &origin.to_array(),
             &arrays,
-            Some(&VISIBLE_GROUPS),
+            Some(groups),
             true,
             None,
             HORIZON,
