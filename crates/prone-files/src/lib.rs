@@ -1,4 +1,4 @@
-//! The text formats of prone: `robot.toml` and gait files.
+//! The text formats of prone: `robot.toml`, gait files and scene files.
 //!
 //! At this border names carry units (`span_mm`, `constant_deg`) and numbers are converted once;
 //! behind it everything is SI and radians. Every error names file, line and column. What ships
@@ -10,6 +10,7 @@ mod error;
 mod exactly;
 pub mod gait_file;
 pub mod robot_file;
+pub mod scene_file;
 pub mod shipped;
 pub mod text_file;
 

@@ -1,9 +1,10 @@
-//! What ships inside the program: one robot, the published gaits, and gaits that were found.
+//! What ships inside the program: one robot, the published gaits, gaits that were found, and scenes.
 
 use prone::gait::Gait;
 use prone::gait::cycle::Cycle;
+use prone::scene::Scene;
 
-use crate::{FileError, cycle_file, gait_file};
+use crate::{FileError, cycle_file, gait_file, scene_file};
 
 /// A robot's two files, embedded.
 #[derive(Debug, Clone, Copy)]
@@ -99,9 +100,51 @@ pub fn gait(name: &str) -> Option<Result<Gait, FileError>> {
     Some(gait_file::parse(&format!("gaits/{name}.toml"), text))
 }
 
+/// Names and texts of the scenes that ship with the program.
+const SCENES: [(&str, &str); 5] = [
+    ("plate-200", include_str!("../../../scenes/plate-200.toml")),
+    ("table", include_str!("../../../scenes/table.toml")),
+    ("ramp", include_str!("../../../scenes/ramp.toml")),
+    ("rough-5", include_str!("../../../scenes/rough-5.toml")),
+    ("rough-10", include_str!("../../../scenes/rough-10.toml")),
+];
+
+/// The names that [`scene`] knows.
+pub fn scene_names() -> impl Iterator<Item = &'static str> {
+    SCENES.iter().map(|(name, _)| *name)
+}
+
+/// A shipped scene by name, `None` for any other name.
+///
+/// # Errors
+/// [`FileError`] if the embedded text does not parse, which a test excludes.
+pub fn scene(name: &str) -> Option<Result<Scene, FileError>> {
+    let (_, text) = SCENES.iter().find(|(known, _)| *known == name)?;
+    Some(scene_file::parse(&format!("scenes/{name}.toml"), text))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn shipped_scenes_parse_under_their_own_names() {
+        for name in scene_names() {
+            assert_eq!(scene(name).unwrap().unwrap().name, name);
+        }
+        assert!(scene("swamp").is_none());
+    }
+
+    #[test]
+    fn reference_the_table_is_blocked_to_200_mm() {
+        let table = scene("table").unwrap().unwrap();
+        let edges: Vec<f64> = table.panels.iter().map(|panel| panel.lower_edge).collect();
+        assert_eq!(edges, [0.2, 0.2]);
+        assert!(table.marker.is_some());
+        // From all outside to all through, for a robot of 0.6 m, is what the original crawled.
+        let plate = table.plates[0];
+        assert!((plate.start + plate.length + 0.6 - 1.6764).abs() < 0.03);
+    }
 
     #[test]
     fn shipped_gaits_parse_under_their_own_names() {

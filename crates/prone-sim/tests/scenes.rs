@@ -167,19 +167,9 @@ fn rough_ground_and_ramps_carry_the_weight() {
         angle: 2_f64.to_radians(),
         width: 1.0,
     });
-    // Both begin before the robot: it slides there.
+    // Both reach under the robot, whose root begins at x = 0, and lift it.
     for scene in [on_bumps, on_ramp] {
-        let mut scene = scene;
-        scene.floor.slope = -5_f64.to_radians();
-        let mut world = World::in_scene(&loaded, Regime::TORQUE_STUDY, &scene).unwrap();
-        let mut simulation = Simulation::new(&world, &lying(&loaded));
-        for _ in 0..30 {
-            simulation.control_step().unwrap();
-        }
-        let x = simulation.ground_from_root().origin().x();
-        assert!(x > -0.4, "it slid: {x}");
-        scene.floor.slope = 0.0;
-        world = World::in_scene(&loaded, Regime::LOCOMOTION, &scene).unwrap();
+        let world = World::in_scene(&loaded, Regime::LOCOMOTION, &scene).unwrap();
         let mut resting = Simulation::new(&world, &lying(&loaded));
         let mut contact = [0.0; 4];
         for _ in 0..40 {

@@ -2,12 +2,12 @@
 //!
 //! Seen from the side, a prone humanoid with toes and elbows planted is a closed five-link
 //! chain. This crate holds that chain ([`chain`]), the curves that steer it ([`gait`]), the way
-//! from chain angles to a robot's joints ([`mapping`]), the robot as data ([`robot`]), the torques
-//! that hold it still ([`statics`]) or that a table knows ([`torque_map`]), what a crawl costs
-//! ([`cost`]) and how it keeps its line ([`steering`]).
+//! from chain angles to a robot's joints ([`mapping`]), the robot ([`robot`]) and what it crawls
+//! on and under ([`scene`]) as data, the torques that hold it still ([`statics`]) or that a table
+//! knows ([`torque_map`]), what a crawl costs ([`cost`]) and how it keeps its line ([`steering`]).
 //!
-//! It reads no file, no clock and no random number, and knows no particular robot: files are
-//! read by `prone-files`, the robot's shape comes from its MJCF through `prone-sim`.
+//! It reads no file and no clock, and knows no particular robot: files are read by `prone-files`,
+//! the robot's shape comes from its MJCF through `prone-sim`.
 //!
 //! Inside: `f64`, SI units, radians. Frames are in the types ([`frames`]): a transform is named
 //! and typed `target_from_source`, so that neighbours cancel.

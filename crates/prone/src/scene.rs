@@ -9,7 +9,7 @@ mod check;
 mod obstacle;
 mod rough;
 
-pub use check::{Item, Quantity, SceneError};
+pub use check::{Item, MOST_POINTS, Quantity, SceneError};
 pub use obstacle::{Obstacle, ObstacleKind};
 pub use rough::{Heights, Roughness};
 
@@ -20,6 +20,8 @@ use crate::frames::{Ground, Point};
 pub struct Scene {
     /// Name in records.
     pub name: String,
+    /// One sentence.
+    pub description: String,
     /// What it crawls on.
     pub floor: Floor,
     /// What it crawls under.
@@ -127,6 +129,7 @@ impl Scene {
     pub fn level() -> Self {
         Self {
             name: "level".to_owned(),
+            description: "a level floor".to_owned(),
             floor: Floor::default(),
             plates: Vec::new(),
             panels: Vec::new(),
@@ -139,6 +142,7 @@ impl Scene {
     pub fn under_plate(height: f64, length: f64) -> Self {
         Self {
             name: "under-plate".to_owned(),
+            description: format!("{length} m under a plate at {height} m"),
             plates: vec![Plate {
                 start: Self::CLEAR_START,
                 length,
@@ -151,11 +155,11 @@ impl Scene {
         }
     }
 
-    /// Whether it is the scene of [`Scene::level`] under whatever name: no place in it differs
-    /// from any other.
+    /// Whether it is the scene of [`Scene::level`], under whatever name.
     pub fn is_plain(&self) -> bool {
         let Self {
             name: _,
+            description: _,
             floor,
             plates,
             panels,

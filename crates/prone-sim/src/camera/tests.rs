@@ -195,7 +195,13 @@ fn glass_tints_what_is_behind_it() {
         pixel(&picture, column, row)
     };
     let (before, behind, away) = (at(-0.5), at(0.5), at(-9.0));
-    assert_eq!(behind, away);
+    assert!(
+        behind.iter().zip(away).all(|(b, a)| (b - a).abs() < 0.5),
+        "hidden: {behind:?} {away:?}"
+    );
     assert!(before[2] > away[2] + 20.0, "bluer: {before:?} {away:?}");
-    assert!(before[0] > 100.0 && before[0] < away[0], "still red: {before:?} {away:?}");
+    assert!(
+        before[0] > 100.0 && before[0] < away[0],
+        "still red: {before:?} {away:?}"
+    );
 }

@@ -39,17 +39,17 @@ impl<'a> Tracer<'a> {
 
     /// Follows unit directions from one origin to what is solid.
     pub(super) fn hits(&mut self, origin: DVec3, directions: &[DVec3]) -> Vec<Option<Hit>> {
-        self.hits_in(&VISIBLE_GROUPS, origin, directions)
+        self.hits_in(VISIBLE_GROUPS, origin, directions)
     }
 
     /// Follows unit directions from one origin to glass.
     pub(super) fn glass_hits(&mut self, origin: DVec3, directions: &[DVec3]) -> Vec<Option<Hit>> {
-        self.hits_in(&glass::GROUPS, origin, directions)
+        self.hits_in(glass::GROUPS, origin, directions)
     }
 
     fn hits_in(
         &mut self,
-        groups: &[u8; 6],
+        groups: [u8; 6],
         origin: DVec3,
         directions: &[DVec3],
     ) -> Vec<Option<Hit>> {
@@ -58,7 +58,7 @@ impl<'a> Tracer<'a> {
         let (geoms, distances) = self.data.multi_ray(
             &origin.to_array(),
             &arrays,
-            Some(groups),
+            Some(&groups),
             true,
             None,
             HORIZON,

@@ -135,3 +135,54 @@ fn add_marker(spec: &mut MjSpec, marker: &Marker, friction: [f64; 3]) {
 const fn real_first(turn: DQuat) -> [f64; 4] {
     [turn.w, turn.x, turn.y, turn.z]
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use mujoco_rs::prelude::MjData;
+
+    use super::*;
+    use crate::{LoadedRobot, Regime, RobotFiles, World};
+    use prone_files::shipped;
+
+    /// A ray from above meets the ground where the grid of heights says.
+    #[test]
+    fn identity_the_engine_has_each_height_in_its_place() {
+        let rough = Roughness {
+            height: 0.02,
+            spacing: 0.1,
+            from_x: 2.0,
+            length: 1.2,
+            width: 1.0,
+            seed: 5,
+        };
+        let mut scene = Scene::level();
+        scene.floor.roughness = Some(rough);
+        let loaded = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
+        let world = World::in_scene(&loaded, Regime::LOCOMOTION, &scene).unwrap();
+        assert_eq!(world.geom_roles[..2], [GeomRole::Floor; 2]);
+        let mut data = MjData::new(Arc::clone(&world.model));
+        data.forward();
+        let heights = rough.heights();
+        for (index, height) in heights.metres.iter().enumerate() {
+            let (row, column) = (index / heights.columns, index % heights.columns);
+            if [0, heights.columns - 1].contains(&column) || [0, heights.rows - 1].contains(&row) {
+                continue; // the border, where a ray may pass beside it
+            }
+            let x = rough.from_x + column as f64 * 0.1;
+            let y = row as f64 * 0.1 - 0.5;
+            // 1e-7 m aside: a ray through a corner of triangles may miss them all.
+            let from = [x + 1e-7, y + 2e-7, 1.0];
+            let (geoms, distances) =
+                data.multi_ray(&from, &[[0.0, 0.0, -1.0]], None, true, None, 2.0, None);
+            assert!(geoms[0].is_some());
+            // 1e-6 m: single precision, and the slope over 1e-7 m.
+            let found = 1.0 - distances[0];
+            assert!(
+                (found - height).abs() < 1e-6,
+                "{row} {column}: {found} {height}"
+            );
+        }
+    }
+}

@@ -15,7 +15,7 @@ const FLATTEST: f64 = 0.1_f64.to_radians();
 /// Rubber on rubber has about 1; beyond ten nothing slides that has not slid before.
 const LARGEST_FRICTION: f64 = 10.0;
 /// Grid points of a rough ground: 1,000 on each side.
-const MOST_POINTS: f64 = 1e6;
+pub const MOST_POINTS: f64 = 1e6;
 
 /// Why a scene cannot be built.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
