@@ -8,9 +8,13 @@
 
 mod measure;
 mod pilot;
+mod touch;
 
 pub use measure::{Advance, BodyPart, CycleRow, Effort, JointEffort, Row, Tops};
-pub use pilot::{Bearing, Decision, Moment, Pilot, Stage, Straight};
+pub use pilot::{
+    Bearing, BearingSource, Decision, Exact, HoldLine, Moment, Pilot, Stage, Straight,
+};
+pub use touch::Touch;
 
 use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale};
 use prone::mapping::{Mapping, MappingError};
@@ -76,6 +80,8 @@ pub struct Crawl {
     pub effort: Effort,
     /// The highest points by part of the body.
     pub tops: Tops,
+    /// What it bumped into, by part of the robot, then by obstacle.
+    pub touches: Vec<Touch>,
     /// Every [`ROW_STEP`], where asked for.
     pub rows: Vec<Row>,
     /// The position at each row.
@@ -149,7 +155,7 @@ pub fn run(
         world,
         plan,
         simulation,
-        meter: Meter::new(world.robot(), plan.detail),
+        meter: Meter::new(world, plan.detail),
     };
     let mut arrived = false;
     let most = match plan.end {
@@ -186,6 +192,7 @@ pub fn run(
         cycles: record.cycles,
         effort: record.effort,
         tops: record.tops,
+        touches: record.touches,
         rows: record.rows,
         snapshots,
         arrived,

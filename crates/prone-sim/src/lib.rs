@@ -13,6 +13,7 @@ pub mod camera;
 pub mod crawl;
 mod engine_log;
 mod load;
+mod model_view;
 pub mod pull;
 pub mod regime;
 pub mod settled;
@@ -20,9 +21,10 @@ mod simulation;
 mod world;
 
 pub use load::{LoadError, LoadedRobot, ModelProblem, RobotFiles};
+pub use model_view::ShapeView;
 pub use regime::Regime;
 pub use simulation::{
-    ObstacleContact, Placement, Simulation, SimulationError, Snapshot, StepMeans,
+    ContactForce, ObstacleContact, Placement, Simulation, SimulationError, Snapshot, StepMeans,
 };
 pub use world::{World, WorldError};
 

@@ -14,6 +14,7 @@ mod chain;
 mod check;
 mod comparison;
 mod cost;
+mod crawl_angles;
 mod font;
 mod heat;
 mod panel;
@@ -29,6 +30,7 @@ mod tests;
 mod torque;
 mod torque_map;
 
+pub(crate) use crawl_angles::figure as crawl_angles;
 pub use search::{Scores, figures as search_figures};
 
 use crate::record::{ChainRecord, CostRecord, PullRecord};

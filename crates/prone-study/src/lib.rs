@@ -5,6 +5,7 @@
 
 pub mod agreement;
 pub mod contact_story;
+pub mod crawl;
 pub mod figures;
 pub mod frames;
 pub mod gait_sheet;

@@ -116,7 +116,7 @@ pub fn run(
     })
 }
 
-fn insert_figure(artefacts: &mut Artefacts, figure: Figure, png: Vec<u8>) {
+pub(crate) fn insert_figure(artefacts: &mut Artefacts, figure: Figure, png: Vec<u8>) {
     artefacts.insert(format!("figures/{}.png", figure.stem), png);
     artefacts.insert(
         format!("figures/{}.svg", figure.stem),
