@@ -1,5 +1,6 @@
 //! What may be typed.
 
+mod crawl;
 pub(crate) mod optimize;
 pub(crate) mod pricing;
 mod torque_map;
@@ -10,6 +11,7 @@ use clap::{Parser, Subcommand};
 
 use prone::gait::PhaseDuration;
 
+pub(crate) use crawl::{CrawlCommand, CrawlRunArgs, ServoName};
 pub(crate) use torque_map::{BuildArgs, CompareArgs, PlotArgs, SourceArg, TorqueMapCommand};
 
 /// Makes humanoid robots crawl where they cannot walk.
@@ -27,6 +29,8 @@ Examples:
                                           search a better gait
   prone cost nominal --objective heat --source dynamics
                                           price a gait
+  prone crawl run --gait low-175 --ceiling-mm 178 --length-m 1.5 --until-past
+                                          crawl under a plate
   prone gait show nominal                 a gait's joints, limits and heights
   prone robot check robots/nao            validate a robot and print its chain")]
 pub(crate) struct Args {
@@ -38,6 +42,9 @@ pub(crate) struct Args {
 pub(crate) enum Command {
     /// Redo the published torque study: simulate, price, compare, draw, report
     Reproduce(ReproduceArgs),
+    /// Crawl in simulation: whole cycles, under plates, up slopes
+    #[command(subcommand)]
+    Crawl(CrawlCommand),
     /// Search a better gait, and simulate what is found beside the published ones
     Optimize(optimize::OptimizeArgs),
     /// Price one gait
@@ -114,20 +121,20 @@ pub(crate) struct ReproduceArgs {
 Examples:
   prone gait show nominal
   prone gait show my-gait.toml --duration 3 --csv my-gait.csv
+  prone gait show low-175                 a whole cycle: its pull and the way back
   prone gait show optimal --json | jq .clamps")]
 pub(crate) struct GaitShowArgs {
-    /// A gait that ships with prone (nominal, optimal, least-torque, …) or a gait file
+    /// A gait or a cycle that ships with prone (nominal, low-175, …), or a file of either
     #[arg(value_name = "GAIT")]
     pub(crate) gait: String,
-    /// Duration of the phase, s
+    /// Duration of the pull, s [default: 5, or a cycle's own]
     #[arg(
         long,
         value_name = "S",
-        default_value = "5",
         value_parser = phase_duration,
         allow_negative_numbers = true
     )]
-    pub(crate) duration: PhaseDuration,
+    pub(crate) duration: Option<PhaseDuration>,
     /// Write all 101 instants to a CSV file
     #[arg(long, value_name = "FILE")]
     pub(crate) csv: Option<PathBuf>,

@@ -6,6 +6,7 @@
 mod args;
 mod checkpoint;
 mod cost;
+mod crawl;
 mod failure;
 mod gait;
 mod interrupt;
@@ -30,6 +31,7 @@ fn main() -> ExitCode {
     let args = Args::parse();
     let done = match args.command {
         Command::Reproduce(args) => reproduce::run(&args),
+        Command::Crawl(command) => crawl::run(&command),
         Command::Optimize(args) => optimize::run(&args),
         Command::Cost(args) => cost::run(&args),
         Command::Gait(GaitCommand::Show(args)) => gait::show(&args),

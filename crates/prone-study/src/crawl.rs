@@ -13,8 +13,6 @@ mod tables;
 pub use run::{Conditions, GaitSource, PastObstacles};
 pub use summary::CrawlSummary;
 
-pub(crate) use frames::sequence;
-
 use prone::scene::Obstacle;
 
 /// What an obstacle is called in records: its kind and which of them it is, from 1.
