@@ -3,7 +3,7 @@
 //! [`summary`] reduces a record to figures, [`record`] makes every file of a record folder. Both
 //! read what [`prone_sim::crawl`] measured.
 
-mod frames;
+pub(crate) mod frames;
 mod model;
 pub mod record;
 mod run;

@@ -18,6 +18,7 @@ pub mod reproduce;
 pub mod robot_sheet;
 pub mod run_info;
 pub mod summary;
+pub mod table_crawl;
 mod tables;
 pub mod torque_map;
 pub mod torque_study;
