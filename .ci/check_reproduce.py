@@ -20,6 +20,8 @@ FIGURES = [
     "fig-25-gait-parameters",
     "fig-26-nominal-chain",
     "fig-27-nominal-frames",
+    "fig-28-thesis-nominal-sequence",
+    "fig-31-thesis-nominal-angles",
     "fig-34-optimal-chain",
     "fig-35-optimal-frames",
     "fig-36-nominal-torque-by-duration",

@@ -1,5 +1,6 @@
 //! What may be typed.
 
+mod crawl;
 pub(crate) mod optimize;
 pub(crate) mod passage;
 pub(crate) mod pricing;
@@ -11,6 +12,7 @@ use clap::{Parser, Subcommand};
 
 use prone::gait::PhaseDuration;
 
+pub(crate) use crawl::{CrawlCommand, CrawlRunArgs, ServoName};
 pub(crate) use torque_map::{BuildArgs, CompareArgs, PlotArgs, SourceArg, TorqueMapCommand};
 
 /// Makes humanoid robots crawl where they cannot walk.
@@ -28,6 +30,9 @@ Examples:
                                           search a better gait
   prone cost nominal --objective heat --source dynamics
                                           price a gait
+  prone crawl run --gait low-175 --ceiling-mm 178 --length-m 1.5 --until-past
+                                          crawl under a plate
+  prone crawl under --ceiling-mm 180      whether the robot gets under it, how, and how fast
   prone gait show nominal                 a gait's joints, limits and heights
   prone robot check robots/nao            validate a robot and print its chain")]
 pub(crate) struct Args {
@@ -39,13 +44,13 @@ pub(crate) struct Args {
 pub(crate) enum Command {
     /// Redo the published torque study: simulate, price, compare, draw, report
     Reproduce(ReproduceArgs),
+    /// Crawl whole cycles in simulation, and ask what a robot gets under
+    #[command(subcommand)]
+    Crawl(CrawlCommand),
     /// Search a better gait, and simulate what is found beside the published ones
     Optimize(optimize::OptimizeArgs),
     /// Price one gait
     Cost(optimize::CostArgs),
-    /// Crawl whole cycles, and ask what a robot gets under
-    #[command(subcommand)]
-    Crawl(CrawlCommand),
     /// Look at gaits
     #[command(subcommand)]
     Gait(GaitCommand),
@@ -63,14 +68,6 @@ pub(crate) enum Command {
         /// For which shell
         shell: clap_complete::Shell,
     },
-}
-
-#[derive(Debug, Subcommand)]
-pub(crate) enum CrawlCommand {
-    /// Whether the robot gets under a ceiling, with which cycle, and how fast
-    Under(passage::UnderArgs),
-    /// Search the curve of ceiling against advance or heat
-    Frontier(passage::FrontierArgs),
 }
 
 #[derive(Debug, Subcommand)]
@@ -126,20 +123,20 @@ pub(crate) struct ReproduceArgs {
 Examples:
   prone gait show nominal
   prone gait show my-gait.toml --duration 3 --csv my-gait.csv
+  prone gait show low-175                 a whole cycle: its pull and the way back
   prone gait show optimal --json | jq .clamps")]
 pub(crate) struct GaitShowArgs {
-    /// A gait that ships with prone (nominal, optimal, least-torque, …) or a gait file
+    /// A gait or a cycle that ships with prone (nominal, low-175, …), or a file of either
     #[arg(value_name = "GAIT")]
     pub(crate) gait: String,
-    /// Duration of the phase, s
+    /// Duration of the pull, s [default: 5, or a cycle's own]
     #[arg(
         long,
         value_name = "S",
-        default_value = "5",
         value_parser = phase_duration,
         allow_negative_numbers = true
     )]
-    pub(crate) duration: PhaseDuration,
+    pub(crate) duration: Option<PhaseDuration>,
     /// Write all 101 instants to a CSV file
     #[arg(long, value_name = "FILE")]
     pub(crate) csv: Option<PathBuf>,

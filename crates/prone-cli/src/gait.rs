@@ -1,15 +1,18 @@
 //! `prone gait show`, and finding a gait by name or file.
 
+mod cycle;
+
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 
-use prone::gait::Gait;
+use prone::gait::{Gait, PhaseDuration};
 use prone::robot::Robot;
 use prone_files::robot_file::RobotFile;
-use prone_files::{gait_file, shipped, text_file};
+use prone_files::{cycle_file, gait_file, shipped, text_file};
 use prone_sim::LoadedRobot;
+use prone_study::crawl::GaitSource;
 use prone_study::gait_sheet::{self, GaitSheet};
 
 use crate::args::GaitShowArgs;
@@ -36,10 +39,52 @@ pub(crate) fn find(name: &str) -> Result<Gait, Failure> {
     gait_file::parse(name, &text).map_err(Failure::input)
 }
 
+/// A shipped cycle by name, or the cycle of a file, with the text of that file.
+pub(crate) fn find_cycle(name: &str) -> Result<GaitSource, Failure> {
+    if let (Some(cycle), Some(text)) = (shipped::cycle(name), shipped::cycle_text(name)) {
+        return Ok(GaitSource {
+            cycle: cycle.map_err(Failure::input)?,
+            file: format!("gaits/{name}.toml"),
+            text: text.to_owned(),
+        });
+    }
+    let known: Vec<_> = shipped::cycle_names().collect();
+    let known = known.join(", ");
+    if shipped::gait(name).is_some() {
+        return Err(Failure::Input(anyhow!(
+            "{name} is a pull alone: a crawl needs a cycle with its way back, one that ships with \
+             prone ({known}) or a file"
+        )));
+    }
+    let path = Path::new(name);
+    if !path.exists() {
+        return Err(Failure::Input(anyhow!(
+            "there is no cycle {name:?}: it is neither one that ships with prone ({known}) nor a file"
+        )));
+    }
+    let text = text_file::read(path)
+        .map_err(|error| Failure::Input(anyhow!("cannot read {name}: {error}")))?;
+    Ok(GaitSource {
+        cycle: cycle_file::parse(name, &text).map_err(Failure::input)?,
+        file: name.to_owned(),
+        text,
+    })
+}
+
+/// A pull's duration where none is asked for, s.
+const DURATION_S: f64 = 5.0;
+
 pub(crate) fn show(args: &GaitShowArgs) -> Result<(), Failure> {
+    if shipped::cycle(&args.gait).is_some() || is_cycle_file(&args.gait) {
+        return cycle::show(args);
+    }
     let gait = find(&args.gait)?;
     let loaded = crate::robot::load(args.robot.as_deref())?;
-    let sheet = gait_sheet::of(loaded.robot(), &gait, args.duration).map_err(Failure::input)?;
+    let duration = match args.duration {
+        Some(duration) => duration,
+        None => PhaseDuration::new(DURATION_S).map_err(Failure::input)?,
+    };
+    let sheet = gait_sheet::of(loaded.robot(), &gait, duration).map_err(Failure::input)?;
     if let Some(path) = &args.csv {
         write_csv(&sheet, path, &inputs(args, &loaded))?;
     }
@@ -53,10 +98,19 @@ pub(crate) fn show(args: &GaitShowArgs) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Whether a file holds a cycle: the key that only a cycle has, at the beginning of a line.
+fn is_cycle_file(name: &str) -> bool {
+    let text = text_file::read(Path::new(name));
+    text.is_ok_and(|text| {
+        text.lines()
+            .any(|line| line.trim_start().starts_with("[pull"))
+    })
+}
+
 /// The files that were read.
 fn inputs(args: &GaitShowArgs, loaded: &LoadedRobot) -> Vec<PathBuf> {
     let mut inputs = Vec::new();
-    if shipped::gait(&args.gait).is_none() {
+    if shipped::gait(&args.gait).is_none() && shipped::cycle(&args.gait).is_none() {
         inputs.push(PathBuf::from(&args.gait));
     }
     if let Some(folder) = &args.robot {

@@ -6,9 +6,9 @@
 mod args;
 mod checkpoint;
 mod cost;
+mod crawl;
 mod cycle_search;
 mod failure;
-
 mod gait;
 mod interrupt;
 mod lock;
@@ -26,20 +26,19 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser};
 
-use args::{Args, Command, CrawlCommand, GaitCommand, RobotCommand};
+use args::{Args, Command, GaitCommand, RobotCommand};
 use failure::Failure;
 
 fn main() -> ExitCode {
     let args = Args::parse();
     let done = match args.command {
         Command::Reproduce(args) => reproduce::run(&args),
+        Command::Crawl(command) => crawl::run(&command),
         Command::Optimize(args) => optimize::run(&args),
         Command::Cost(args) => cost::run(&args),
         Command::Gait(GaitCommand::Show(args)) => gait::show(&args),
         Command::Robot(RobotCommand::Check(args)) => robot::check(&args),
         Command::TorqueMap(command) => torque_map::run(&command),
-        Command::Crawl(CrawlCommand::Under(args)) => passage::run(&args),
-        Command::Crawl(CrawlCommand::Frontier(args)) => cycle_search::frontier(&args),
         Command::Completions { shell } => completions(shell),
     };
     match done {

@@ -2,12 +2,11 @@
 
 use std::io::Write as _;
 use std::ops::ControlFlow;
-use std::path::Path;
 
 use anyhow::anyhow;
 
 use prone::gait::cycle::Cycle;
-use prone_files::{cycle_file, shipped, text_file};
+use prone_files::{cycle_file, shipped};
 use prone_sim::LoadedRobot;
 use prone_study::cycle_search::frontier::{self, Hunt};
 use prone_study::cycle_search::passage::{Passage, Tried};
@@ -21,25 +20,7 @@ use crate::{Failure, interrupt, table_file};
 
 /// A shipped cycle by name, or the cycle of a file.
 pub(crate) fn find(name: &str) -> Result<Cycle, Failure> {
-    if let Some(cycle) = shipped::cycle(name) {
-        return cycle.map_err(Failure::input);
-    }
-    let path = Path::new(name);
-    let known: Vec<_> = shipped::cycle_names().collect();
-    let known = known.join(", ");
-    if shipped::gait_names().any(|pull| pull == name) {
-        return Err(Failure::Input(anyhow!(
-            "{name} is a pull, which has no way back: the cycles that ship with prone are {known}"
-        )));
-    }
-    if !path.exists() {
-        return Err(Failure::Input(anyhow!(
-            "there is no cycle {name:?}: it is neither one that ships with prone ({known}) nor a file"
-        )));
-    }
-    let text = text_file::read(path)
-        .map_err(|error| Failure::Input(anyhow!("cannot read {name}: {error}")))?;
-    cycle_file::parse(name, &text).map_err(Failure::input)
+    Ok(crate::gait::find_cycle(name)?.cycle)
 }
 
 /// Cycles by name, or all that ship.

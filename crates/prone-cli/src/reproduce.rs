@@ -6,16 +6,26 @@ use std::time::Instant;
 use anyhow::anyhow;
 use serde_json::json;
 
+use prone::gait::cycle::{CheckedCycle, CycleError, TimeScale};
+use prone::robot::Robot;
+use prone_files::shipped;
+use prone_sim::crawl::CrawlError;
 use prone_sim::{Regime, World};
 use prone_study::output;
+use prone_study::published::TABLE_CRAWLS;
 use prone_study::reproduce::{self, ReproduceError, Reproduction};
 use prone_study::run_info::Program;
 use prone_study::summary::Summary;
+use prone_study::table_crawl::{TableError, TableStudy};
 use prone_study::torque_study::{Plan, StudyError};
 
 use crate::args::ReproduceArgs;
 use crate::progress::Progress;
 use crate::{Failure, interrupt};
+
+/// Cycle and scene of the published experiments on the robot.
+const CYCLE: &str = "thesis-nominal";
+const SCENE: &str = "table";
 
 /// The gaits of the published study.
 const GAITS: [&str; 2] = ["nominal", "optimal"];
@@ -27,6 +37,7 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<(), Failure> {
     let robot = crate::robot::load(args.robot.as_deref())?;
     let world = World::new(&robot, Regime::TORQUE_STUDY).map_err(Failure::input)?;
     plan.check(&world).map_err(Failure::input)?;
+    let table = table_study(world.robot())?;
     interrupt::listen()?;
     output::check(&args.out).map_err(Failure::input)?;
     let pool = rayon::ThreadPoolBuilder::new()
@@ -38,9 +49,11 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<(), Failure> {
         commit: env!("PRONE_COMMIT"),
     };
 
-    let progress = Progress::new(plan.phases())?;
+    let crawls = table.as_ref().map_or(0, |_| TABLE_CRAWLS.len());
+    let progress = Progress::new(plan.phases() + crawls)?;
     let started = Instant::now();
-    let reproduction = pool.install(|| reproduce::run(&robot, &plan, &program, &progress));
+    let reproduction =
+        pool.install(|| reproduce::run(&robot, &plan, table.as_ref(), &program, &progress));
     progress.finish();
     let mut reproduction = reproduction.map_err(failure)?;
     let timing = timing(&reproduction, started, pool.current_num_threads())?;
@@ -58,6 +71,20 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<(), Failure> {
         writeln!(out, "\nreport: {}", args.out.join("report.html").display())?;
     }
     Ok(())
+}
+
+/// The crawl under the table, for a robot that has the joints which its cycle names.
+fn table_study(robot: &Robot) -> Result<Option<TableStudy>, Failure> {
+    let cycle = crate::gait::find_cycle(CYCLE)?.cycle;
+    let Some(scene) = shipped::scene(SCENE) else {
+        return Ok(None);
+    };
+    let scene = scene.map_err(Failure::input)?;
+    match CheckedCycle::plan(robot, &robot.stops(), &cycle, 0.0, TimeScale::ONE) {
+        Ok(_) => Ok(Some(TableStudy { cycle, scene })),
+        Err(CycleError::UnknownJoint { .. }) => Ok(None),
+        Err(error) => Err(Failure::input(error)),
+    }
 }
 
 fn timing(
@@ -78,7 +105,8 @@ fn timing(
 fn failure(error: ReproduceError) -> Failure {
     use prone_sim::pull::PullError;
     match error {
-        ReproduceError::Study(StudyError::Stopped) => Failure::Stopped,
+        ReproduceError::Study(StudyError::Stopped)
+        | ReproduceError::Table(TableError::Crawl(CrawlError::Stopped)) => Failure::Stopped,
         ReproduceError::World(_)
         | ReproduceError::Study(
             StudyError::Trajectory(_)
@@ -112,6 +140,25 @@ fn print(summary: &Summary, out: &mut impl std::io::Write) -> std::io::Result<()
             cell("nominal"),
             cell("optimal"),
             beside(row.ours, row.published)
+        )?;
+    }
+    if !summary.table.is_empty() {
+        writeln!(
+            out,
+            "\ncrawl under the table: ours in simulation / published on the robot"
+        )?;
+    }
+    for row in &summary.table {
+        let (ours, theirs) = (&row.ours, &row.published);
+        writeln!(
+            out,
+            "{:>6} cycles: {:.1} / {:.1} mm in {:.1} / {:.0} s; ours {}",
+            theirs.cycles,
+            ours.distance_mm,
+            theirs.distance_mm,
+            ours.time_s,
+            theirs.time_s,
+            row.touched()
         )?;
     }
     Ok(())

@@ -80,6 +80,8 @@ fn results_are_the_same_on_any_number_of_threads_and_replace_each_other() {
         "report.html",
         "figures/fig-26-nominal-chain.svg",
         "figures/fig-27-nominal-frames.png",
+        "figures/fig-28-thesis-nominal-sequence.png",
+        "figures/fig-31-thesis-nominal-angles.svg",
         "figures/fig-45-left-cost.svg",
     ] {
         assert!(

@@ -114,6 +114,12 @@ pub fn scene_names() -> impl Iterator<Item = &'static str> {
     SCENES.iter().map(|(name, _)| *name)
 }
 
+/// The text of a shipped scene's file.
+pub fn scene_text(name: &str) -> Option<&'static str> {
+    let (_, text) = SCENES.iter().find(|(known, _)| *known == name)?;
+    Some(text)
+}
+
 /// A shipped scene by name, `None` for any other name.
 ///
 /// # Errors

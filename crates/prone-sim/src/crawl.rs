@@ -9,10 +9,14 @@
 mod measure;
 mod pilot;
 mod slope;
+mod touch;
 
 pub use measure::{Advance, BodyPart, CycleRow, Effort, JointEffort, Row, Tops};
-pub use pilot::{Bearing, Decision, Moment, Pilot, Stage, Straight};
+pub use pilot::{
+    Bearing, BearingSource, Decision, Exact, HoldLine, Moment, Pilot, Stage, Straight,
+};
 pub use slope::SlopeAware;
+pub use touch::Touch;
 
 use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale};
 use prone::mapping::{Mapping, MappingError};
@@ -78,6 +82,8 @@ pub struct Crawl {
     pub effort: Effort,
     /// The highest points by part of the body.
     pub tops: Tops,
+    /// What it bumped into, by part of the robot, then by obstacle.
+    pub touches: Vec<Touch>,
     /// Every [`ROW_STEP`], where asked for.
     pub rows: Vec<Row>,
     /// The position at each row.
@@ -151,7 +157,7 @@ pub fn run(
         world,
         plan,
         simulation,
-        meter: Meter::new(world.robot(), plan.detail),
+        meter: Meter::new(world, plan.detail),
     };
     let mut arrived = false;
     let most = match plan.end {
@@ -188,6 +194,7 @@ pub fn run(
         cycles: record.cycles,
         effort: record.effort,
         tops: record.tops,
+        touches: record.touches,
         rows: record.rows,
         snapshots,
         arrived,
@@ -307,17 +314,19 @@ impl<'w> Crawler<'_, 'w> {
     ) -> Result<(), SimulationError> {
         let regime = self.world.regime();
         let (steps, every) = (regime.steps_in(seconds), regime.steps_in(COMMAND_STEP));
+        let mut stage = Stage::Recovery;
         for step in 0..steps {
             if step % every == 0 {
                 // What is to be reached when the next command comes.
                 let time = ((step + every) as f64 * regime.time_step).min(seconds);
-                let (posture, stage) = at(time);
+                let posture;
+                (posture, stage) = at(time);
                 self.simulation
                     .command(&off_by(self.world, self.plan, posture.clone()));
                 self.meter.command(posture, stage);
-                pilot.sense(&self.moment(stage));
             }
             self.simulation.step();
+            pilot.sense(&self.moment(stage));
             self.meter.step(&self.simulation);
         }
         self.simulation.check()

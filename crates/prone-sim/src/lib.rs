@@ -14,6 +14,7 @@ pub mod crawl;
 mod engine_log;
 pub mod imu;
 mod load;
+mod model_view;
 pub mod pull;
 pub mod regime;
 pub mod self_collision;
@@ -22,9 +23,10 @@ mod simulation;
 mod world;
 
 pub use load::{LoadError, LoadedRobot, ModelProblem, RobotFiles};
+pub use model_view::ShapeView;
 pub use regime::Regime;
 pub use simulation::{
-    ObstacleContact, Placement, Simulation, SimulationError, Snapshot, StepMeans,
+    ContactForce, ObstacleContact, Placement, Simulation, SimulationError, Snapshot, StepMeans,
 };
 pub use world::{World, WorldError};
 

@@ -13,7 +13,7 @@ use crate::world::World;
 
 mod contacts;
 
-pub use contacts::ObstacleContact;
+pub use contacts::{ContactForce, ObstacleContact};
 
 /// Coordinates of a free root: position and quaternion.
 const FREE_JOINT: usize = 7;

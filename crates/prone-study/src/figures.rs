@@ -14,6 +14,7 @@ mod chain;
 mod check;
 mod comparison;
 mod cost;
+mod crawl_angles;
 mod font;
 mod frontier;
 mod heat;
@@ -30,6 +31,7 @@ mod tests;
 mod torque;
 mod torque_map;
 
+pub(crate) use crawl_angles::figure as crawl_angles;
 pub use frontier::figure as frontier_figure;
 pub use search::{Scores, figures as search_figures};
 

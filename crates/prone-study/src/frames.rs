@@ -62,29 +62,54 @@ pub(crate) fn of(
         .par_iter()
         .map(|snapshot| camera::ray_cast(&mut world.at(snapshot), &camera, FRAME))
         .collect();
-    let stack = stack(&pictures);
     let number = if gait == "optimal" { "35" } else { "27" };
     let percents: Vec<String> = (0..snapshots.len())
         .map(|index| format!("{} %", index * 100 / (snapshots.len() - 1).max(1)))
         .collect();
     let instants = percents.join(", ");
+    let wording = Wording {
+        stem: format!("fig-{number}-{gait}-frames"),
+        number,
+        title: format!("The simulated robot, {gait} gait"),
+        caption: format!(
+            "The robot at {instants} of a {duration_s} s pull with the {gait} gait (top to \
+             bottom), ray cast from the simulation. It crawls to the right; lines on the \
+             floor are 100 mm apart, heavy ones 500 mm. The camera does not move."
+        ),
+        alt: format!(
+            "Five pictures of the simulated robot lying on its belly, then carried forward \
+             on toes and forearms, at {instants} of the pull."
+        ),
+    };
+    stacked(&pictures, &percents, wording)
+}
+
+/// What is said about frames.
+pub(crate) struct Wording {
+    pub(crate) stem: String,
+    pub(crate) number: &'static str,
+    pub(crate) title: String,
+    pub(crate) caption: String,
+    pub(crate) alt: String,
+}
+
+/// Pictures of one size, one below the other, each with its label in the corner.
+pub(crate) fn stacked(
+    pictures: &[Picture],
+    labels: &[String],
+    wording: Wording,
+) -> Result<Frames, FramesError> {
+    let stack = stack(pictures);
+    let labels = label_elements(labels, stack.height / pictures.len().max(1));
     let size = (stack.width, stack.height);
-    let labels = labels(&percents);
     let bare = stack.png()?;
     Ok(Frames {
         figure: Figure {
-            stem: format!("fig-{number}-{gait}-frames"),
-            number,
-            title: format!("The simulated robot, {gait} gait"),
-            caption: format!(
-                "The robot at {instants} of a {duration_s} s pull with the {gait} gait (top to \
-                 bottom), ray cast from the simulation. It crawls to the right; lines on the \
-                 floor are 100 mm apart, heavy ones 500 mm. The camera does not move."
-            ),
-            alt: format!(
-                "Five pictures of the simulated robot lying on its belly, then carried forward \
-                 on toes and forearms, at {instants} of the pull."
-            ),
+            stem: wording.stem,
+            number: wording.number,
+            title: wording.title,
+            caption: wording.caption,
+            alt: wording.alt,
             svg: svg(size, &picture_element(size, &bare), &labels),
         },
         png: raster::png_over(&svg(size, "", &labels), size, &stack.rgb)?,
@@ -104,8 +129,8 @@ pub(crate) fn cover(world: &World, snapshot: &Snapshot) -> Result<Vec<u8>, Frame
 /// The pictures one below the other.
 fn stack(pictures: &[Picture]) -> Picture {
     Picture {
-        width: FRAME.0,
-        height: FRAME.1 * pictures.len(),
+        width: pictures.first().map_or(0, |picture| picture.width),
+        height: pictures.iter().map(|picture| picture.height).sum(),
         rgb: pictures
             .iter()
             .flat_map(|picture| picture.rgb.iter().copied())
@@ -114,11 +139,11 @@ fn stack(pictures: &[Picture]) -> Picture {
 }
 
 /// The instant of each frame, in its corner.
-fn labels(percents: &[String]) -> Vec<String> {
-    let labels = percents.iter().enumerate().map(|(index, percent)| {
-        let baseline = index * FRAME.1 + 32;
+fn label_elements(labels: &[String], height: usize) -> Vec<String> {
+    let labels = labels.iter().enumerate().map(|(index, label)| {
+        let baseline = index * height + 32;
         format!(
-            r##"<text x="14" y="{baseline}" font-family="DejaVu Sans, Verdana, sans-serif" font-size="20" fill="#222">{percent}</text>"##
+            r##"<text x="14" y="{baseline}" font-family="DejaVu Sans, Verdana, sans-serif" font-size="20" fill="#222">{label}</text>"##
         )
     });
     labels.collect()

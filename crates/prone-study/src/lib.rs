@@ -5,6 +5,7 @@
 
 pub mod agreement;
 pub mod contact_story;
+pub mod crawl;
 pub mod cycle_search;
 pub mod figures;
 pub mod frames;
@@ -18,6 +19,7 @@ pub mod reproduce;
 pub mod robot_sheet;
 pub mod run_info;
 pub mod summary;
+pub mod table_crawl;
 mod tables;
 pub mod torque_map;
 pub mod torque_study;

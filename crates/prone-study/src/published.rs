@@ -3,7 +3,7 @@
 //! Source: the *Projected Profile* crawl gait of the NAO humanoid, master's thesis, NYU
 //! Polytechnic 2015, and IROS 2015 (doi 10.1109/IROS.2015.7354220).
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// Values behind Figure 45: ∫ Σ τ² dt of one side at 1, 2, … 10 s, N²·m²·s.
 const NOMINAL_COSTS: [f64; 10] = [
@@ -16,12 +16,54 @@ const OPTIMAL_COSTS: [f64; 10] = [
 /// Durations of the published study, s.
 pub const DURATIONS_S: [f64; 10] = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0];
 
-/// Advance of the real robot per crawl cycle in the two table experiments, mm: 610 mm in 9
-/// cycles, 1,676.4 mm in 25.
+/// Advance of the real robot per crawl cycle in [`TABLE_CRAWLS`], mm.
 pub const ROBOT_ADVANCE_MM: [f64; 2] = [610.0 / 9.0, 1676.4 / 25.0];
 
 /// The height at which Figure 26 shows the ankle's highest point, mm, as its text words it.
 pub const ANKLE_PEAK_MM: &str = "about 100";
+
+/// Ranges of the left joints of the crawling robot at 3 s a cycle (Figure 31), rad, read off the
+/// drawing; one value where the joint hardly moved.
+const CRAWL_RANGES: [(&str, f64, f64); 7] = [
+    ("LShoulderPitch", -1.0, 0.2),
+    ("LShoulderRoll", 0.45, 1.2),
+    ("LElbowYaw", -1.7, -1.05),
+    ("LElbowRoll", -1.54, -0.7),
+    ("LHipPitch", 0.3, 0.3),
+    ("LKneePitch", 0.15, 0.7),
+    ("LAnklePitch", -1.19, -0.2),
+];
+
+/// The published range of a joint of the crawling robot, rad.
+pub fn crawl_range(joint: &str) -> Option<(f64, f64)> {
+    let found = CRAWL_RANGES.iter().find(|(name, ..)| *name == joint);
+    found.map(|&(_, low, high)| (low, high))
+}
+
+/// A crawl of the real robot under its table.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct TableCrawl {
+    /// How many cycles.
+    pub cycles: usize,
+    /// How far, mm.
+    pub distance_mm: f64,
+    /// In which time, s.
+    pub time_s: f64,
+}
+
+/// The two experiments of the real robot.
+pub const TABLE_CRAWLS: [TableCrawl; 2] = [
+    TableCrawl {
+        cycles: 9,
+        distance_mm: 610.0,
+        time_s: 27.0,
+    },
+    TableCrawl {
+        cycles: 25,
+        distance_mm: 1676.4,
+        time_s: 58.0,
+    },
+];
 
 /// The published cost of a published gait, N²·m²·s.
 pub fn cost(gait: &str, duration_s: f64) -> Option<f64> {

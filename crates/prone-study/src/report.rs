@@ -8,6 +8,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::figures::Figure;
 use crate::frames::Frames;
+use crate::reproduce::CrawlFigures;
 use crate::run_info::RunInfo;
 use crate::summary::Summary;
 
@@ -44,6 +45,7 @@ pub(crate) fn html(
     summary: &Summary,
     figures: &[Figure],
     frames: &[Frames],
+    crawled: Option<&CrawlFigures>,
 ) -> String {
     let page = html! {
         (DOCTYPE)
@@ -72,6 +74,7 @@ pub(crate) fn html(
                     (sections::costs(summary))
                     (sections::agreement(summary))
                     (sections::stride(summary))
+                    @if let Some(crawled) = crawled { (under_the_table(summary, crawled)) }
                     (sections::clamps(summary))
                     (sections::mappings(summary))
                     (sections::differences())
@@ -103,6 +106,23 @@ fn photographs(frames: &[Frames]) -> Markup {
                     }))
                 }
             }
+        }
+    }
+}
+
+fn under_the_table(summary: &Summary, crawled: &CrawlFigures) -> Markup {
+    let (frames, angles) = (&crawled.frames.figure, &crawled.angles);
+    html! {
+        section {
+            h2 { "Whole cycles under the table" }
+            (sections::table_crawl(summary))
+            (captioned(frames, &html! {
+                img alt=(frames.alt)
+                    src={ "data:image/png;base64," (BASE64.encode(&crawled.frames.png)) };
+            }))
+            (captioned(angles, &html! {
+                div.drawing role="img" aria-label=(angles.alt) { (PreEscaped(inline(&angles.svg))) }
+            }))
         }
     }
 }

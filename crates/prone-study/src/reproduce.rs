@@ -6,10 +6,11 @@ use serde::Serialize;
 use prone_sim::{LoadedRobot, Regime, World, WorldError};
 
 use crate::figures::{self, Figure, FigureError};
-use crate::frames::FramesError;
+use crate::frames::{Frames, FramesError};
 use crate::output::{Artefacts, RUN_FILE};
 use crate::run_info::{Program, RunInfo};
 use crate::summary::{self, Summary};
+use crate::table_crawl::{self, TableError, TableResult, TableStudy};
 use crate::torque_study::{self, Observer, Plan, StudyError};
 use crate::{agreement, contact_story, frames, published, report, tables};
 
@@ -36,9 +37,15 @@ pub enum ReproduceError {
     /// A figure cannot be drawn.
     #[error(transparent)]
     Figure(#[from] FigureError),
+    /// The crawl under the table has no result.
+    #[error(transparent)]
+    Table(#[from] TableError),
     /// The frames of the simulated robot cannot be made.
     #[error(transparent)]
     Frames(#[from] FramesError),
+    /// There is nothing to draw.
+    #[error("the crawl under the table has no rows")]
+    NoRows,
     /// A table cannot be written or read.
     #[error("table: {0}")]
     Csv(#[from] csv::Error),
@@ -57,11 +64,19 @@ pub(crate) const PNG_SCALE: f32 = 2.0;
 pub fn run(
     robot: &LoadedRobot,
     plan: &Plan,
+    table: Option<&TableStudy>,
     program: &Program,
     observer: &dyn Observer,
 ) -> Result<Reproduction, ReproduceError> {
     let world = World::new(robot, Regime::TORQUE_STUDY)?;
-    let study = torque_study::run(&world, plan, observer)?;
+    let (study, table_result) = rayon::join(
+        || torque_study::run(&world, plan, observer),
+        || {
+            let result = table.map(|table| table_crawl::run(robot, table, observer));
+            result.transpose()
+        },
+    );
+    let (study, table_result) = (study?, table_result?);
     let bins = published::torque_bins()?;
     let agreement = agreement::of(&study.pulls, &bins);
     let stories = study
@@ -70,8 +85,11 @@ pub fn run(
         .filter(|pull| (pull.duration_s - study.showcase_s).abs() < 1e-9)
         .map(contact_story::of)
         .collect();
-    let summary = summary::of(&study, agreement, stories);
-    let info = RunInfo::of(robot, &world, plan, program);
+    let experiments = table_result
+        .as_ref()
+        .map_or_else(Vec::new, |result| result.experiments.clone());
+    let summary = summary::of(&study, agreement, stories, experiments);
+    let info = RunInfo::of(robot, &world, plan, table, program);
 
     let mut artefacts = Artefacts::new();
     for pull in &study.pulls {
@@ -101,7 +119,8 @@ pub fn run(
         .par_iter()
         .map(|figure| figure.png(PNG_SCALE))
         .collect::<Result<Vec<_>, _>>()?;
-    let html = report::html(&info, &summary, &drawn, &photographed);
+    let crawled = table_result.as_ref().map(pictures).transpose()?;
+    let html = report::html(&info, &summary, &drawn, &photographed, crawled.as_ref());
     artefacts.insert("report.html".into(), html.into_bytes());
     for (figure, png) in drawn.into_iter().zip(pngs) {
         insert_figure(&mut artefacts, figure, png);
@@ -109,14 +128,37 @@ pub fn run(
     for frames in photographed {
         insert_figure(&mut artefacts, frames.figure, frames.png);
     }
+    if let Some(crawled) = crawled {
+        insert_figure(&mut artefacts, crawled.frames.figure, crawled.frames.png);
+        let png = crawled.angles.png(PNG_SCALE)?;
+        insert_figure(&mut artefacts, crawled.angles, png);
+    }
+    let crawling = table_result.map_or(0, |result| result.engine_steps);
     Ok(Reproduction {
         artefacts,
         summary,
-        engine_steps: study.engine_steps,
+        engine_steps: study.engine_steps + crawling,
     })
 }
 
-fn insert_figure(artefacts: &mut Artefacts, figure: Figure, png: Vec<u8>) {
+/// Figures of the crawl under the table.
+pub(crate) struct CrawlFigures {
+    pub(crate) frames: Frames,
+    pub(crate) angles: Figure,
+}
+
+fn pictures(result: &TableResult) -> Result<CrawlFigures, ReproduceError> {
+    let (world, crawl) = (&result.world, &result.longest);
+    let gait = crawl.cycles.first().map_or("", |cycle| cycle.gait.as_str());
+    let frames = crate::crawl::frames::sequence(world, gait, crawl)?;
+    let angles = figures::crawl_angles(world.robot(), gait, crawl)?;
+    frames
+        .zip(angles)
+        .map(|(frames, angles)| CrawlFigures { frames, angles })
+        .ok_or(ReproduceError::NoRows)
+}
+
+pub(crate) fn insert_figure(artefacts: &mut Artefacts, figure: Figure, png: Vec<u8>) {
     artefacts.insert(format!("figures/{}.png", figure.stem), png);
     artefacts.insert(
         format!("figures/{}.svg", figure.stem),

@@ -5,8 +5,9 @@ use serde::Serialize;
 use prone_sim::regime::{
     CONTROL_STEP, Effort, SERVO_RATE, SERVO_SPEED, SOLIMP, SOLREF, Stops, TIME_STEP,
 };
-use prone_sim::{LoadedRobot, World};
+use prone_sim::{LoadedRobot, Regime, World};
 
+use crate::table_crawl::TableStudy;
 use crate::torque_study::Plan;
 
 /// Which program made a result.
@@ -54,6 +55,31 @@ pub(crate) struct Options {
     pub(crate) solimp: [f64; 5],
     pub(crate) start_posture: String,
     pub(crate) settle_s: f64,
+    /// The crawl under the table, where the robot can do it.
+    pub(crate) table: Option<TableInfo>,
+}
+
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct TableInfo {
+    pub(crate) gait: String,
+    pub(crate) description: String,
+    pub(crate) scene: String,
+    pub(crate) regime: &'static str,
+    pub(crate) friction: f64,
+    pub(crate) impratio: f64,
+}
+
+impl TableInfo {
+    fn of(study: &TableStudy) -> Self {
+        Self {
+            gait: study.cycle.pull.name.clone(),
+            description: study.cycle.pull.description.clone(),
+            scene: study.scene.name.clone(),
+            regime: Regime::LOCOMOTION.name,
+            friction: Regime::LOCOMOTION.friction,
+            impratio: Regime::LOCOMOTION.impratio,
+        }
+    }
 }
 
 #[derive(Debug, Clone, Serialize)]
@@ -65,7 +91,13 @@ pub(crate) struct GaitInfo {
 }
 
 impl RunInfo {
-    pub(crate) fn of(robot: &LoadedRobot, world: &World, plan: &Plan, program: &Program) -> Self {
+    pub(crate) fn of(
+        robot: &LoadedRobot,
+        world: &World,
+        plan: &Plan,
+        table: Option<&TableStudy>,
+        program: &Program,
+    ) -> Self {
         let regime = world.regime();
         let study = &robot.robot().study;
         let moved = study.stops.iter().map(|(joint, range)| {
@@ -116,6 +148,7 @@ impl RunInfo {
                 solimp: SOLIMP,
                 start_posture: study.start_posture.clone(),
                 settle_s: prone_sim::pull::SETTLE,
+                table: table.map(TableInfo::of),
             },
         }
     }

@@ -6,6 +6,7 @@ use crate::agreement::Agreement;
 use crate::contact_story::ContactStory;
 use crate::published;
 use crate::record::{ChainRecord, ClampRecord, CostRecord, RunRecord};
+use crate::table_crawl::TableExperiment;
 use crate::torque_study::TorqueStudy;
 
 /// Everything that the report's tables show.
@@ -29,6 +30,8 @@ pub struct Summary {
     pub contacts: Vec<ContactStory>,
     /// What the mapping changes, at the showcase duration.
     pub mappings: Vec<MappingRow>,
+    /// The experiments under the table, where the robot can do them.
+    pub table: Vec<TableExperiment>,
 }
 
 /// A cost beside the published one.
@@ -93,7 +96,12 @@ pub struct MappingRow {
 }
 
 /// Gathers the figures of a study.
-pub fn of(study: &TorqueStudy, agreement: Vec<Agreement>, contacts: Vec<ContactStory>) -> Summary {
+pub fn of(
+    study: &TorqueStudy,
+    agreement: Vec<Agreement>,
+    contacts: Vec<ContactStory>,
+    table: Vec<TableExperiment>,
+) -> Summary {
     Summary {
         costs: study.costs.iter().map(cost_row).collect(),
         ratios: ratios(&study.costs),
@@ -107,6 +115,7 @@ pub fn of(study: &TorqueStudy, agreement: Vec<Agreement>, contacts: Vec<ContactS
         clamps: study.clamps.clone(),
         contacts,
         mappings: mappings(study),
+        table,
     }
 }
 

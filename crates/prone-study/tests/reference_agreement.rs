@@ -87,7 +87,7 @@ fn regression_records_are_minus_the_right_actuators() {
 #[test]
 fn reference_costs_are_near_the_published_ones() {
     let study = study(&[3.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0]);
-    let summary = summary::of(&study, Vec::new(), Vec::new());
+    let summary = summary::of(&study, Vec::new(), Vec::new(), Vec::new());
     for row in summary.costs.iter().filter(|row| row.duration_s >= 5.0) {
         let limit = if row.gait == "nominal" { 0.10 } else { 0.17 };
         assert!(row.relative_difference.unwrap().abs() <= limit, "{row:?}");
@@ -102,7 +102,7 @@ fn reference_costs_are_near_the_published_ones() {
 
 #[test]
 fn reference_planned_chain_of_the_nominal_gait() {
-    let summary = summary::of(&study(&[1.0]), Vec::new(), Vec::new());
+    let summary = summary::of(&study(&[1.0]), Vec::new(), Vec::new(), Vec::new());
     let peak = summary
         .ankle_peak
         .iter()

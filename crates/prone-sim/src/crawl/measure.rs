@@ -7,8 +7,10 @@ use prone::gait::cycle::CheckedCycle;
 use prone::robot::{ContactGroup, JointAngles, JointId, Robot, Shape};
 
 use super::pilot::{Stage, bearing};
+use super::touch::{Touch, Touches};
 use super::{Bearing, Detail, ROW_STEP};
-use crate::simulation::{Simulation, Snapshot};
+use crate::simulation::{ContactForce, Simulation, Snapshot};
+use crate::world::World;
 
 /// A part of the body whose height is recorded apart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -98,6 +100,8 @@ pub struct Row {
     pub actuator_torque: Vec<f64>,
     /// Normal contact force of the ground by [`ContactGroup::ALL`], mean over the row, N.
     pub contact: [f64; 4],
+    /// What the world does to the robot now, contact by contact.
+    pub forces: Vec<ContactForce>,
     /// Pose of the root.
     pub ground_from_root: Transform<Ground, Root>,
     /// Highest points.
@@ -146,9 +150,15 @@ impl CycleRow {
         Advance {
             forward: cos * dx + sin * dy,
             left: cos * dy - sin * dx,
-            yaw: self.to.yaw - self.from.yaw,
+            yaw: wrapped(self.to.yaw - self.from.yaw),
         }
     }
+}
+
+/// An angle brought to −π…π, rad.
+fn wrapped(angle: f64) -> f64 {
+    use std::f64::consts::{PI, TAU};
+    (angle + PI).rem_euclid(TAU) - PI
 }
 
 /// What the motors of a robot did.
@@ -245,6 +255,7 @@ pub(super) struct Meter {
     command: JointAngles,
     stage: Stage,
     means: Means,
+    touches: Touches,
 }
 
 /// What a finished meter has.
@@ -253,6 +264,7 @@ pub(super) struct Record {
     pub(super) effort: Effort,
     pub(super) tops: Tops,
     pub(super) rows: Vec<Row>,
+    pub(super) touches: Vec<Touch>,
 }
 
 /// Sums since the last row.
@@ -273,7 +285,8 @@ impl Means {
 }
 
 impl Meter {
-    pub(super) fn new(robot: &Robot, detail: Detail) -> Self {
+    pub(super) fn new(world: &World, detail: Detail) -> Self {
+        let robot = world.robot();
         let limits = robot
             .joints
             .iter()
@@ -284,7 +297,9 @@ impl Meter {
                 effort: Effort::none(robot),
                 tops: Tops::NONE,
                 rows: Vec::new(),
+                touches: Vec::new(),
             },
+            touches: Touches::new(world),
             snapshots: Vec::new(),
             detail,
             parts: robot
@@ -344,6 +359,8 @@ impl Meter {
         };
         let dt = simulation.time_step();
         cycle.effort.seconds += dt;
+        let since = simulation.time() - self.begin.unwrap_or_default();
+        self.touches.step(simulation, since);
         let torques = simulation
             .actuator_torque()
             .iter()
@@ -417,12 +434,17 @@ impl Meter {
             angles: simulation.joint_angles(),
             actuator_torque: means.torque.iter().map(|&sum| mean(sum)).collect(),
             contact: means.contact.map(mean),
+            forces: simulation.contact_forces(),
             ground_from_root: simulation.ground_from_root(),
             tops,
         });
     }
 
     pub(super) fn finish(self) -> (Record, Vec<Snapshot>) {
-        (self.record, self.snapshots)
+        let record = Record {
+            touches: self.touches.finish(),
+            ..self.record
+        };
+        (record, self.snapshots)
     }
 }

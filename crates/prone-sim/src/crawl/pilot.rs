@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use prone::frames::{Ground, Root, Transform};
 pub use prone::steering::Bearing;
+use prone::steering::HeadingHold;
 
 use super::CrawlError;
 use crate::simulation::Simulation;
@@ -16,8 +17,18 @@ pub trait Pilot {
     /// [`CrawlError`], which ends the crawl.
     fn decide(&mut self, now: &Moment<'_, '_>) -> Result<Decision, CrawlError>;
 
-    /// Called with every command, for sensors that must not miss anything.
+    /// Called after every engine step, for sensors that must not miss anything.
     fn sense(&mut self, _now: &Moment<'_, '_>) {}
+}
+
+impl Pilot for Box<dyn Pilot> {
+    fn decide(&mut self, now: &Moment<'_, '_>) -> Result<Decision, CrawlError> {
+        (**self).decide(now)
+    }
+
+    fn sense(&mut self, now: &Moment<'_, '_>) {
+        (**self).sense(now);
+    }
 }
 
 /// What comes next.
@@ -65,6 +76,60 @@ impl Pilot for Straight {
             cycle: 0,
             turn: self.turn,
         })
+    }
+}
+
+/// Where a pilot learns where the robot is and where it heads: the simulation itself, or the
+/// robot's own senses.
+pub trait BearingSource {
+    /// In the frame of the line that is to be followed.
+    ///
+    /// # Errors
+    /// [`CrawlError`], which ends the crawl.
+    fn bearing(&mut self, now: &Moment<'_, '_>) -> Result<Bearing, CrawlError>;
+
+    /// Called with every command, for senses that add up what they feel.
+    fn sense(&mut self, _now: &Moment<'_, '_>) {}
+}
+
+/// The simulation's own bearing, without error, along the x axis of the ground.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Exact;
+
+impl BearingSource for Exact {
+    fn bearing(&mut self, now: &Moment<'_, '_>) -> Result<Bearing, CrawlError> {
+        Ok(now.bearing())
+    }
+}
+
+/// The same cycle for ever, turned so that the robot keeps to its line.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HoldLine<S> {
+    source: S,
+    hold: HeadingHold,
+}
+
+impl<S: BearingSource> HoldLine<S> {
+    /// Turns by at most `limit`, rad, on what `source` says.
+    pub fn new(source: S, limit: f64) -> Self {
+        Self {
+            source,
+            hold: HeadingHold::new(limit),
+        }
+    }
+}
+
+impl<S: BearingSource> Pilot for HoldLine<S> {
+    fn decide(&mut self, now: &Moment<'_, '_>) -> Result<Decision, CrawlError> {
+        let bearing = self.source.bearing(now)?;
+        Ok(Decision {
+            cycle: 0,
+            turn: self.hold.turn(bearing),
+        })
+    }
+
+    fn sense(&mut self, now: &Moment<'_, '_>) {
+        self.source.sense(now);
     }
 }
 

@@ -45,6 +45,48 @@ fn regression_shipped_cycles_advance_and_repeat_themselves() {
     }
 }
 
+/// Touches are counted, and the forces of the rows are those of the ground on the robot.
+#[test]
+fn a_low_plate_is_touched_and_the_floor_carries_the_rest() {
+    let robot = nao();
+    let in_scene = |height| {
+        let scene = prone::scene::Scene::under_plate(height, 0.5);
+        let world = World::in_scene(&robot, Regime::LOCOMOTION, &scene).unwrap();
+        let cycles = [shipped::cycle("low-175").unwrap().unwrap()];
+        let plan = CrawlPlan {
+            cycles: &cycles,
+            scale: TimeScale::ONE,
+            end: End::Cycles(3),
+            offsets: None,
+            detail: Detail::Rows,
+        };
+        run(&world, &plan, &mut HoldLine::new(Exact, 0.2)).unwrap()
+    };
+    let free = in_scene(0.3);
+    assert_eq!(free.touches, []);
+    let forces = free.rows.iter().flat_map(|row| &row.forces);
+    let carried = forces.map(|contact| contact.force.z).sum::<f64>() / free.rows.len() as f64;
+    let weight = robot.robot().mass() * prone::statics::GRAVITY;
+    // 2 %: forces of single instants, where rows are 20 ms apart.
+    assert!(
+        (carried / weight - 1.0).abs() < 0.02,
+        "{carried} N of {weight} N"
+    );
+
+    let low = in_scene(0.13);
+    assert!(!low.touches.is_empty());
+    for touch in &low.touches {
+        assert!(
+            touch.count > 0 && touch.seconds > 0.0 && touch.peak > 0.0,
+            "{touch:?}"
+        );
+        assert!(
+            (0.0..=low.effort.seconds).contains(&touch.first),
+            "{touch:?}"
+        );
+    }
+}
+
 #[test]
 fn left_mirrors_right() {
     let robot = nao();

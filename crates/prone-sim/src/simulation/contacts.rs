@@ -1,5 +1,8 @@
 //! What the robot touches.
 
+use glam::{DMat3, DVec3};
+
+use prone::frames::{Ground, Point};
 use prone::robot::BodyId;
 
 use super::Simulation;
@@ -16,6 +19,20 @@ pub struct ObstacleContact {
     pub normal: f64,
 }
 
+/// What the world does to the robot in one place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactForce {
+    /// The part of the robot.
+    pub body: BodyId,
+    /// The obstacle's place in [`prone::scene::Scene::obstacles`]; `None` for floor and rough
+    /// ground.
+    pub obstacle: Option<usize>,
+    /// Where.
+    pub at: Point<Ground>,
+    /// Force on the robot in the ground frame, N.
+    pub force: DVec3,
+}
+
 /// A contact of the robot with anything else.
 pub(super) struct Contact<'s> {
     pub(super) body: BodyId,
@@ -30,21 +47,57 @@ impl Contact<'_> {
         let [normal, ..] = self.simulation.data.contact_force(self.index);
         normal
     }
+
+    /// Force on the robot in the ground frame, N.
+    fn force(&self) -> DVec3 {
+        let data = &self.simulation.data;
+        let contact = &data.contact()[self.index];
+        let [normal, across, along, ..] = data.contact_force(self.index);
+        // Rows of the engine's frame are its axes; the first leads from the first geom to the
+        // second, and the force is that on the second.
+        let ground_from_contact = DMat3::from_cols_array(&contact.frame);
+        let on_second = ground_from_contact * DVec3::new(normal, across, along);
+        let second =
+            usize::try_from(contact.geom[1]).map(|geom| self.simulation.world.geom_roles[geom]);
+        if matches!(second, Ok(GeomRole::Robot(_))) {
+            on_second
+        } else {
+            -on_second
+        }
+    }
+
+    fn at(&self) -> Point<Ground> {
+        Point::new(DVec3::from_array(
+            self.simulation.data.contact()[self.index].pos,
+        ))
+    }
 }
 
 impl Simulation<'_> {
     /// The robot's contacts with obstacles after the last step, ramps included.
-    pub fn obstacle_contacts(&self) -> Vec<ObstacleContact> {
-        self.contacts()
-            .filter_map(|contact| match contact.with {
-                GeomRole::Obstacle(obstacle) => Some(ObstacleContact {
-                    body: contact.body,
-                    obstacle,
-                    normal: contact.normal(),
-                }),
+    pub fn obstacle_contacts(&self) -> impl Iterator<Item = ObstacleContact> {
+        self.contacts().filter_map(|contact| match contact.with {
+            GeomRole::Obstacle(obstacle) => Some(ObstacleContact {
+                body: contact.body,
+                obstacle,
+                normal: contact.normal(),
+            }),
+            GeomRole::Robot(_) | GeomRole::Floor | GeomRole::Marker => None,
+        })
+    }
+
+    /// What the world does to the robot after the last step, contact by contact.
+    pub fn contact_forces(&self) -> Vec<ContactForce> {
+        let contacts = self.contacts().map(|contact| ContactForce {
+            body: contact.body,
+            obstacle: match contact.with {
+                GeomRole::Obstacle(obstacle) => Some(obstacle),
                 GeomRole::Robot(_) | GeomRole::Floor | GeomRole::Marker => None,
-            })
-            .collect()
+            },
+            at: contact.at(),
+            force: contact.force(),
+        });
+        contacts.collect()
     }
 
     /// The robot's contacts with anything but itself.

@@ -3,6 +3,8 @@
 use super::FigureError;
 use prone::torque_map::{Row, TorqueMap};
 
+use prone_sim::crawl::Crawl;
+
 use crate::record::{ChainRecord, CostRecord, JOINTS, PullRecord};
 
 /// Beyond this a difference between neighbouring values is lost; no quantity here comes near it.
@@ -59,6 +61,17 @@ pub(super) fn costs(records: &[CostRecord]) -> Result<(), FigureError> {
             drawable(*published, || {
                 format!("published cost of {gait}, {duration_s} s")
             })?;
+        }
+    }
+    Ok(())
+}
+
+/// Time, command and angle of every row of a crawl.
+pub(super) fn crawl(gait: &str, crawl: &Crawl) -> Result<(), FigureError> {
+    for (index, row) in crawl.rows.iter().enumerate() {
+        let angles = row.command.as_slice().iter().chain(row.angles.as_slice());
+        for value in angles.chain([&row.time]) {
+            drawable(*value, || format!("crawl of {gait}, row {index}"))?;
         }
     }
     Ok(())

@@ -4,7 +4,7 @@
 use super::axis::{Axis, Ticks};
 use super::font::{self, Weight};
 use super::heat::Cells;
-use super::style::{GRID, INK, MINOR_GRID, Marker, REFERENCE, SMALL_SIZE, Stroke, TEXT_SIZE};
+use super::style::{BAND, GRID, INK, MINOR_GRID, Marker, REFERENCE, SMALL_SIZE, Stroke, TEXT_SIZE};
 use super::svg::{Anchor, Canvas, Point, Rect, TextStyle};
 
 /// Units of the drawing per labelled tick, at least.
@@ -31,6 +31,8 @@ pub(super) struct Panel {
     pub(super) aspect: Aspect,
     /// Over the whole frame, below everything else.
     pub(super) cells: Option<Cells>,
+    /// Below the rules.
+    pub(super) bands: Vec<Band>,
     /// Below the curves.
     pub(super) rules: Vec<Rule>,
     /// Later ones above earlier ones.
@@ -45,6 +47,13 @@ pub(super) struct Curve {
     pub(super) points: Vec<Point>,
     pub(super) stroke: Stroke,
     pub(super) marker: Option<Marker>,
+}
+
+/// A level stripe from edge to edge.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Band {
+    pub(super) low: f64,
+    pub(super) high: f64,
 }
 
 /// A straight line from edge to edge.
@@ -79,6 +88,7 @@ impl Panel {
             y,
             aspect: Aspect::Free,
             cells: None,
+            bands: Vec::new(),
             rules: zero.into_iter().collect(),
             curves,
             notes: Vec::new(),
@@ -102,6 +112,9 @@ impl Panel {
             y: &y,
             frame,
         };
+        self.bands
+            .iter()
+            .for_each(|band| view.draw_band(canvas, *band));
         view.draw_grid(canvas);
         if let Some(cells) = &self.cells {
             cells.draw(canvas, frame);
@@ -174,6 +187,21 @@ impl View<'_> {
         y.major
             .iter()
             .for_each(|tick| self.draw_rule(canvas, Rule::Level(tick.0, coarse)));
+    }
+
+    fn draw_band(&self, canvas: &mut Canvas, band: Band) {
+        /// A range of one value is seen too.
+        const THINNEST: f64 = 3.0;
+        let (top, bottom) = (self.down(band.high), self.down(band.low));
+        let middle = f64::midpoint(top, bottom);
+        let height = (bottom - top).max(THINNEST);
+        let area = Rect {
+            left: self.frame.left,
+            top: middle - height / 2.0,
+            width: self.frame.width,
+            height,
+        };
+        canvas.fill(area, BAND);
     }
 
     fn draw_rule(&self, canvas: &mut Canvas, rule: Rule) {

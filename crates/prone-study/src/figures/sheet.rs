@@ -54,6 +54,8 @@ pub(super) enum Sample {
         stroke: Stroke,
         marker: Option<Marker>,
     },
+    /// A range behind curves.
+    Band(Colour),
     /// The cells of a heat map that have no value.
     Hatched,
 }
@@ -152,6 +154,14 @@ impl KeyEntry {
         Self { label, sample }
     }
 
+    /// A range and its meaning.
+    pub(super) fn band(label: String, colour: Colour) -> Self {
+        Self {
+            label,
+            sample: Sample::Band(colour),
+        }
+    }
+
     /// Room for sample, label and a gap; some to spare where another font is wider.
     fn width(&self) -> f64 {
         SAMPLE + 8.0 + font::width(&self.label, TEXT_SIZE, Weight::Regular) * 1.05 + 20.0
@@ -164,6 +174,15 @@ impl KeyEntry {
                 if let Some(marker) = marker {
                     canvas.marker((left + SAMPLE / 2.0, middle), marker, stroke.colour);
                 }
+            }
+            Sample::Band(colour) => {
+                let area = Rect {
+                    left,
+                    top: middle - 7.0,
+                    width: SAMPLE,
+                    height: 14.0,
+                };
+                canvas.fill(area, colour);
             }
             Sample::Hatched => {
                 let area = Rect {

@@ -38,6 +38,10 @@ pub(super) const MINOR_GRID: Colour = Colour(240, 240, 240);
 /// Where a map has nothing to show, and the lines of its hatching.
 pub(super) const NOTHING: Colour = Colour(224, 224, 224);
 pub(super) const HATCHING: Colour = Colour(112, 112, 112);
+/// What was commanded, beside what was measured.
+pub(super) const LIGHT: Colour = Colour(170, 190, 214);
+/// A range, behind curves.
+pub(super) const BAND: Colour = Colour(250, 232, 190);
 /// The line at zero, the floor and other references.
 pub(super) const REFERENCE: Colour = Colour(128, 128, 128);
 

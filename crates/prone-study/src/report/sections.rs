@@ -252,6 +252,49 @@ pub(super) fn stride(summary: &Summary) -> Markup {
     }
 }
 
+pub(super) fn table_crawl(summary: &Summary) -> Markup {
+    html! {
+        @if let Some(first) = summary.table.first() {
+            p {
+                "Pull, recovery, pull: the cycle " (first.ours.gait) " with the published poses, in \
+                 the scene " (first.ours.scene) ", contact regime locomotion (friction 0.7, the \
+                 maker's effort and joint limits on). Published: " (first.published_obtained)
+                ". Ours: " (first.ours_obtained) ". Of the table only the height of its panels, \
+                 200 mm, is published; the other sizes are assumed."
+            }
+        }
+        div.scroll { table {
+            caption { "Two experiments, ours in simulation beside the published ones on the robot." }
+            thead { tr {
+                @for head in [
+                    "cycles", "distance, ours", "published", "time, ours", "published",
+                    "per cycle, ours", "published", "speed, ours", "published", "touched, ours",
+                ] { th scope="col" { (head) } }
+            } }
+            tbody { @for row in &summary.table { tr {
+                @let (ours, theirs) = (&row.ours, &row.published);
+                td { (theirs.cycles) }
+                td { (format!("{:.1} mm", ours.distance_mm)) }
+                td { (format!("{:.1} mm", theirs.distance_mm)) }
+                td { (format!("{:.1} s", ours.time_s)) }
+                td { (format!("{:.0} s", theirs.time_s)) }
+                td { (format!("{:.1} mm", ours.mm_per_cycle)) }
+                td { (format!("{:.1} mm", theirs.distance_mm / theirs.cycles as f64)) }
+                td { (format!("{:.1} mm/s", ours.mm_per_s)) }
+                td { (format!("{:.1} mm/s", theirs.distance_mm / theirs.time_s)) }
+                td {
+                    @if ours.contacts.is_empty() { "nothing" }
+                    @for (index, contact) in ours.contacts.iter().enumerate() {
+                        @if index > 0 { "; " }
+                        (contact.obstacle) " with " (contact.body)
+                        (format!(" for {:.1} s, up to {:.0} N", contact.seconds, contact.peak_n))
+                    }
+                }
+            } } }
+        } }
+    }
+}
+
 pub(super) fn clamps(summary: &Summary) -> Markup {
     html! {
         section {
@@ -344,6 +387,13 @@ pub(super) fn what_was_run(info: &RunInfo) -> Markup {
                     " rad/s; commands change every " (options.control_step_s * 1e3) " ms; torque limit " (options.effort_limit)
                 }
                 dt { "joint stops" } dd { (options.stops) }
+                @if let Some(table) = &options.table {
+                    dt { "cycle " (table.gait) }
+                    dd {
+                        (table.description) "; scene " (table.scene) ", contact regime "
+                        (table.regime) ": friction " (table.friction) ", impratio " (table.impratio)
+                    }
+                }
                 dt { "start" } dd { "posture " (options.start_posture) ", laid on the belly, held for " (options.settle_s) " s" }
             }
         }

@@ -1,0 +1,148 @@
+//! What may be typed after `prone crawl`.
+
+use std::path::PathBuf;
+
+use clap::{Subcommand, ValueEnum};
+
+use prone::gait::cycle::TimeScale;
+
+use super::passage::{FrontierArgs, UnderArgs};
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum CrawlCommand {
+    /// Simulate whole crawl cycles, in a scene or on a level floor
+    Run(Box<CrawlRunArgs>),
+    /// Whether the robot gets under a ceiling, with which cycle, and how fast
+    Under(UnderArgs),
+    /// Search the curve of ceiling against advance or heat
+    Frontier(FrontierArgs),
+}
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  prone crawl run --gait low-175
+  prone crawl run --gait low-175 --ceiling-mm 178 --length-m 1.5 --until-past --heading-hold
+  prone crawl run --gait low-175 --turn-deg-per-cycle 12 --cycles 10 --json | jq .yaw_deg
+  prone crawl run --gait thesis-nominal --scene table --cycles 25 --record out/table
+  prone crawl run --gait low-165 --uphill low-175 --scene ramp --seed 1 --cycles 20
+
+Contact regime `locomotion`: friction 0.7 where nothing else is said, the maker's effort and joint
+limits on. The robot starts with its foremost point at x = 0; a plate of --ceiling-mm begins 50 mm
+ahead. The record folder appears when all is done, and replaces an earlier result in one step; all
+its files but timing.json are the same, byte for byte, for the same input, on any number of
+threads. After Ctrl-C, between two cycles, nothing is written.")]
+pub(crate) struct CrawlRunArgs {
+    /// A cycle that ships with prone (thesis-nominal, low-175, …) or a cycle file
+    #[arg(long, value_name = "GAIT")]
+    pub(crate) gait: String,
+    /// Crawl this cycle in place of --gait where the robot feels that it goes uphill, more than 4°
+    /// by its inertial unit, whose noise --seed draws
+    #[arg(long, value_name = "GAIT", requires = "seed")]
+    pub(crate) uphill: Option<String>,
+    /// How many cycles [default: 9]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pub(crate) cycles: Option<u16>,
+    /// End when the whole robot is past the plates and panels of the scene; fails after 60 cycles
+    #[arg(long, conflicts_with = "cycles")]
+    pub(crate) until_past: bool,
+    /// A scene that ships with prone (plate-200, table, …) or a scene file [default: a level floor]
+    #[arg(long, value_name = "SCENE")]
+    pub(crate) scene: Option<String>,
+    /// A plate with its underside at this height, in place of --scene, mm
+    #[arg(
+        long,
+        value_name = "H",
+        requires = "length_m",
+        conflicts_with = "scene",
+        allow_negative_numbers = true
+    )]
+    pub(crate) ceiling_mm: Option<f64>,
+    /// Its length, m
+    #[arg(
+        long,
+        value_name = "L",
+        requires = "ceiling_mm",
+        allow_negative_numbers = true
+    )]
+    pub(crate) length_m: Option<f64>,
+    /// Turn each cycle so that the robot keeps to its line; it knows where it is from the simulation
+    #[arg(long, conflicts_with = "turn_deg_per_cycle")]
+    pub(crate) heading_hold: bool,
+    /// Turn command of every cycle, degrees, positive to the left: what the arms are asked to turn,
+    /// of which the robot turns a part
+    #[arg(long, value_name = "U", allow_negative_numbers = true)]
+    pub(crate) turn_deg_per_cycle: Option<f64>,
+    /// Friction of the ground with the left limbs, in place of the regime's
+    #[arg(
+        long,
+        value_name = "F",
+        requires = "friction_right",
+        allow_negative_numbers = true
+    )]
+    pub(crate) friction_left: Option<f64>,
+    /// Friction of the ground with the right limbs
+    #[arg(
+        long,
+        value_name = "F",
+        requires = "friction_left",
+        allow_negative_numbers = true
+    )]
+    pub(crate) friction_right: Option<f64>,
+    /// Each joint of arms and legs is off by an angle of at most this, degrees, drawn evenly
+    #[arg(long, value_name = "D", requires = "seed", value_parser = offset, allow_negative_numbers = true)]
+    pub(crate) joint_offset_deg: Option<f64>,
+    /// Seed of these angles, and of the inertial unit's noise
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    pub(crate) seed: Option<u64>,
+    /// Slope of the floor, uphill ahead, degrees
+    #[arg(long, value_name = "D", allow_negative_numbers = true)]
+    pub(crate) slope_deg: Option<f64>,
+    /// What all durations of the cycle are multiplied by
+    #[arg(long, value_name = "X", default_value = "1", value_parser = time_scale, allow_negative_numbers = true)]
+    pub(crate) time_scale: TimeScale,
+    /// Gains of the servos
+    #[arg(long, value_enum, default_value = "soft")]
+    pub(crate) servo: ServoName,
+    /// Length of one engine step, ms
+    #[arg(long, value_name = "MS", default_value = "2.5", value_parser = ["2.5", "1"])]
+    pub(crate) time_step_ms: String,
+    /// Robot folder with robot.toml and its model [default: the NAO that ships with prone]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) robot: Option<PathBuf>,
+    /// Record folder; made, or replaced if it holds an earlier result
+    #[arg(long, value_name = "DIR")]
+    pub(crate) record: Option<PathBuf>,
+    /// Worker threads, for the pictures of --record [default: all cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
+    /// Print the summary as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Which servo gains hold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ServoName {
+    /// The robot's own: on the NAO 80 N·m/rad at the legs, 40 at the arms
+    Soft,
+    /// 400 N·m/rad on every joint
+    Stiff,
+}
+
+/// Largest calibration error, degrees: beyond it a robot is broken.
+const LARGEST_OFFSET_DEG: f64 = 10.0;
+
+fn offset(text: &str) -> Result<f64, String> {
+    let degrees: f64 = text.trim().parse().map_err(|_| "not a number".to_owned())?;
+    if (0.0..=LARGEST_OFFSET_DEG).contains(&degrees) {
+        Ok(degrees)
+    } else {
+        Err(format!("outside 0 to {LARGEST_OFFSET_DEG}"))
+    }
+}
+
+fn time_scale(text: &str) -> Result<TimeScale, String> {
+    let factor: f64 = text.trim().parse().map_err(|_| "not a number".to_owned())?;
+    TimeScale::new(factor).map_err(|error| error.to_string())
+}

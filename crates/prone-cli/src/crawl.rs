@@ -1,0 +1,144 @@
+//! `prone crawl run`.
+
+mod plan;
+mod report;
+
+use std::io::Write as _;
+use std::time::Instant;
+
+use anyhow::anyhow;
+use serde_json::json;
+
+use prone_sim::World;
+use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, Decision, Detail, Moment, Pilot};
+use prone_study::crawl::record::{self, Recording};
+use prone_study::crawl::{CrawlSummary, summary};
+use prone_study::output;
+use prone_study::run_info::Program;
+
+use crate::args::{CrawlCommand, CrawlRunArgs};
+use crate::{Failure, interrupt};
+use plan::Plan;
+
+pub(crate) fn run(command: &CrawlCommand) -> Result<(), Failure> {
+    match command {
+        CrawlCommand::Run(args) => crawl_run(args),
+        CrawlCommand::Under(args) => crate::passage::run(args),
+        CrawlCommand::Frontier(args) => crate::cycle_search::frontier(args),
+    }
+}
+
+fn crawl_run(args: &CrawlRunArgs) -> Result<(), Failure> {
+    let plan = Plan::new(args)?;
+    interrupt::listen()?;
+    if let Some(folder) = &args.record {
+        output::check(folder).map_err(Failure::input)?;
+    }
+    let started = Instant::now();
+    let crawl = simulate(&plan, args)?;
+    let past = plan.past;
+    let summary = summary::of(&plan.world, &plan.gait.cycle, args.time_scale, &crawl, past)
+        .map_err(Failure::input)?;
+    if let Some(folder) = &args.record {
+        let artefacts = files(args, &plan, &crawl, &summary, started)?;
+        interrupt::publish(|| output::publish(folder, &artefacts).map_err(Failure::work))?;
+    }
+    let mut out = std::io::stdout().lock();
+    if args.json {
+        let text = serde_json::to_string_pretty(&summary).map_err(Failure::work)?;
+        writeln!(out, "{text}")?;
+    } else {
+        report::print(&summary, &mut out)?;
+        if let Some(folder) = &args.record {
+            writeln!(out, "\nrecord: {}", folder.display())?;
+        }
+    }
+    match past {
+        Some(past) if !crawl.arrived => Err(Failure::Work(anyhow!(
+            "{} is not past x = {:.0} mm after {} cycles",
+            summary.gait,
+            past.x * 1e3,
+            summary.cycles
+        ))),
+        _ => Ok(()),
+    }
+}
+
+fn simulate(plan: &Plan, args: &CrawlRunArgs) -> Result<Crawl, Failure> {
+    let cycles = plan.cycles();
+    let crawl_plan = CrawlPlan {
+        cycles: &cycles,
+        scale: args.time_scale,
+        end: plan.end,
+        offsets: plan.offsets.clone(),
+        detail: if args.record.is_some() {
+            Detail::Rows
+        } else {
+            Detail::Sums
+        },
+    };
+    let mut pilot = Interruptible(plan.pilot());
+    crawl::run(&plan.world, &crawl_plan, &mut pilot).map_err(failure)
+}
+
+/// A cycle that the robot cannot follow is wrong input, a diverging simulation is not.
+pub(crate) fn failure(error: CrawlError) -> Failure {
+    match error {
+        CrawlError::Stopped => Failure::Stopped,
+        CrawlError::Cycle(_) | CrawlError::Mapping(_) => Failure::input(error),
+        CrawlError::NoCycle { .. } | CrawlError::Simulation { .. } => Failure::work(error),
+    }
+}
+
+/// A pilot that ends the crawl between two cycles when the user asks for it.
+struct Interruptible(Box<dyn Pilot>);
+
+impl Pilot for Interruptible {
+    fn decide(&mut self, now: &Moment<'_, '_>) -> Result<Decision, CrawlError> {
+        if interrupt::requested() {
+            return Err(CrawlError::Stopped);
+        }
+        self.0.decide(now)
+    }
+
+    fn sense(&mut self, now: &Moment<'_, '_>) {
+        self.0.sense(now);
+    }
+}
+
+fn files(
+    args: &CrawlRunArgs,
+    plan: &Plan,
+    crawl: &Crawl,
+    summary: &CrawlSummary,
+    started: Instant,
+) -> Result<output::Artefacts, Failure> {
+    let world: &World = &plan.world;
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(args.threads.map_or(0, usize::from))
+        .build()
+        .map_err(|error| Failure::Work(anyhow!("cannot start worker threads: {error}")))?;
+    let program = Program {
+        version: env!("CARGO_PKG_VERSION"),
+        commit: env!("PRONE_COMMIT"),
+    };
+    let recording = Recording {
+        robot: &plan.robot,
+        world,
+        gait: &plan.gait,
+        conditions: &plan.conditions,
+        crawl,
+        summary,
+    };
+    let mut artefacts = pool
+        .install(|| record::files(&recording, &program))
+        .map_err(Failure::work)?;
+    let timing = json!({
+        "wall_s": started.elapsed().as_secs_f64(),
+        "threads": pool.current_num_threads(),
+        "engine_steps": crawl.engine_steps,
+    });
+    let timing = serde_json::to_vec_pretty(&timing).map_err(Failure::work)?;
+    artefacts.insert("timing.json".into(), timing);
+    Ok(artefacts)
+}

@@ -1,0 +1,264 @@
+//! What was typed about a crawl, checked and loaded.
+
+use anyhow::anyhow;
+
+use prone::gait::cycle::{CheckedCycle, Cycle};
+use prone::robot::{JointAngles, Robot};
+use prone::scene::{Obstacle, Scene, SideFriction};
+use prone_files::{scene_file, shipped, text_file};
+use prone_optim::Random;
+use prone_sim::crawl::{End, Exact, HoldLine, Pilot, SlopeAware, Straight};
+use prone_sim::imu::SimulatedImu;
+use prone_sim::regime::Servo;
+use prone_sim::{LoadedRobot, Regime, World};
+use prone_study::crawl::{Conditions, GaitSource, PastObstacles};
+
+use crate::Failure;
+use crate::args::{CrawlRunArgs, ServoName};
+use crate::gait::find_cycle;
+
+/// How many cycles where nothing is said.
+const CYCLES: usize = 9;
+
+/// Slope above which the cycle for going uphill is taken, degrees: well above what the inertial
+/// unit is off by, well below what the flat cycles slip on.
+const UPHILL_DEG: f64 = 4.0;
+
+/// How many cycles a robot has to get past its obstacles.
+const MOST_CYCLES: usize = 60;
+
+/// Everything that decides a crawl, loaded.
+pub(super) struct Plan {
+    pub(super) robot: LoadedRobot,
+    pub(super) world: World,
+    pub(super) gait: GaitSource,
+    uphill: Option<GaitSource>,
+    imu: Option<SimulatedImu>,
+    pub(super) end: End,
+    pub(super) past: Option<PastObstacles>,
+    pub(super) offsets: Option<JointAngles>,
+    pub(super) conditions: Conditions,
+    steering: Steering,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Steering {
+    Straight { turn: f64 },
+    Hold { limit: f64 },
+}
+
+impl Plan {
+    pub(super) fn new(args: &CrawlRunArgs) -> Result<Self, Failure> {
+        if args.seed.is_some() && args.joint_offset_deg.is_none() && args.uphill.is_none() {
+            return Err(Failure::Input(anyhow!(
+                "--seed draws joint offsets or an inertial unit's noise: it goes with --joint-offset-deg or --uphill"
+            )));
+        }
+        let gait = find_cycle(&args.gait)?;
+        let uphill = args.uphill.as_deref().map(find_cycle).transpose()?;
+        let (scene, scene_text) = scene(args)?;
+        let robot = crate::robot::load(args.robot.as_deref())?;
+        let world = World::in_scene(&robot, regime(args), &scene).map_err(Failure::input)?;
+        let steering = steering(args, &gait)?;
+        for turn in steering.extremes() {
+            let stops = world.stops();
+            for gait in [Some(&gait), uphill.as_ref()].into_iter().flatten() {
+                CheckedCycle::plan(world.robot(), stops, &gait.cycle, turn, args.time_scale)
+                    .map_err(Failure::input)?;
+            }
+        }
+        let imu = match (&uphill, args.seed) {
+            (Some(_), Some(seed)) => Some(SimulatedImu::new(&world, seed).map_err(Failure::input)?),
+            _ => None,
+        };
+        let past = args.until_past.then(|| past(&world)).transpose()?;
+        let most_cycles = match past {
+            None => args.cycles.map_or(CYCLES, usize::from),
+            Some(_) => MOST_CYCLES,
+        };
+        let end = past.map_or(End::Cycles(most_cycles), |past| End::Past {
+            x: past.x,
+            at_most: most_cycles,
+        });
+        let offsets = args
+            .joint_offset_deg
+            .zip(args.seed)
+            .map(|(degrees, seed)| offsets(world.robot(), degrees.to_radians(), seed));
+        let conditions = Conditions {
+            most_cycles,
+            until_past_mm: past.map(|past| past.x * 1e3),
+            time_scale: args.time_scale.value(),
+            steering: match steering {
+                Steering::Hold { .. } => "heading-hold",
+                Steering::Straight { .. } if args.turn_deg_per_cycle.is_some() => "constant",
+                Steering::Straight { .. } => "none",
+            },
+            turn_command_deg: args.turn_deg_per_cycle.unwrap_or_default(),
+            joint_offset_deg: args.joint_offset_deg.unwrap_or_default(),
+            seed: args.seed,
+            joint_offsets_rad: Conditions::offsets_by_name(world.robot(), offsets.as_ref()),
+            scene_text,
+            uphill: uphill
+                .as_ref()
+                .map(|gait| (gait.file.clone(), gait.text.clone())),
+        };
+        Ok(Self {
+            robot,
+            world,
+            gait,
+            uphill,
+            imu,
+            end,
+            past,
+            offsets,
+            conditions,
+            steering,
+        })
+    }
+
+    /// The cycles between which the pilot chooses.
+    pub(super) fn cycles(&self) -> Vec<Cycle> {
+        let sources = [Some(&self.gait), self.uphill.as_ref()];
+        sources
+            .into_iter()
+            .flatten()
+            .map(|gait| gait.cycle.clone())
+            .collect()
+    }
+
+    pub(super) fn pilot(&self) -> Box<dyn Pilot> {
+        let steering: Box<dyn Pilot> = match self.steering {
+            Steering::Straight { turn } => Box::new(Straight { turn }),
+            Steering::Hold { limit } => Box::new(HoldLine::new(Exact, limit)),
+        };
+        match &self.imu {
+            None => steering,
+            Some(imu) => {
+                let threshold = UPHILL_DEG.to_radians();
+                Box::new(SlopeAware::new(steering, imu.clone(), threshold))
+            }
+        }
+    }
+}
+
+impl Steering {
+    /// The turns between which all others lie.
+    fn extremes(self) -> [f64; 2] {
+        match self {
+            // The first pull is straight.
+            Self::Straight { turn } => [0.0, turn],
+            Self::Hold { limit } => [-limit, limit],
+        }
+    }
+}
+
+fn steering(args: &CrawlRunArgs, gait: &GaitSource) -> Result<Steering, Failure> {
+    if !args.heading_hold {
+        let turn = args.turn_deg_per_cycle.unwrap_or_default().to_radians();
+        return Ok(Steering::Straight { turn });
+    }
+    match &gait.cycle.steering {
+        Some(steering) => Ok(Steering::Hold {
+            limit: steering.limit,
+        }),
+        None => Err(Failure::Input(anyhow!(
+            "--heading-hold needs a cycle that can turn; {} has no [steering]",
+            gait.cycle.pull.name
+        ))),
+    }
+}
+
+fn regime(args: &CrawlRunArgs) -> Regime {
+    let regime = match args.servo {
+        ServoName::Soft => Regime::LOCOMOTION,
+        ServoName::Stiff => {
+            let Servo::Uniform(gain) = Regime::STIFF.servo else {
+                unreachable!("stiff joints have one gain")
+            };
+            Regime::LOCOMOTION.with_servo(Servo::Uniform(gain))
+        }
+    };
+    if args.time_step_ms == "1" {
+        regime.with_time_step(0.001)
+    } else {
+        regime
+    }
+}
+
+/// The scene, and the text of its file where it has one.
+fn scene(args: &CrawlRunArgs) -> Result<(Scene, Option<String>), Failure> {
+    let (mut scene, text) = match (&args.scene, args.ceiling_mm.zip(args.length_m)) {
+        (Some(name), _) => {
+            let (scene, text) = find_scene(name)?;
+            (scene, Some(text))
+        }
+        (None, Some((mm, metres))) => (Scene::under_plate(mm / 1e3, metres), None),
+        (None, None) => (Scene::level(), None),
+    };
+    let twice = |what: &str| {
+        Failure::Input(anyhow!(
+            "scene {} sets {what} itself",
+            args.scene.as_deref().unwrap_or_default()
+        ))
+    };
+    if let Some((left, right)) = args.friction_left.zip(args.friction_right) {
+        if scene.floor.friction.is_some() {
+            return Err(twice("the friction"));
+        }
+        scene.floor.friction = Some(SideFriction { left, right });
+    }
+    if let Some(degrees) = args.slope_deg {
+        if scene.floor.slope != 0.0 {
+            return Err(twice("the slope"));
+        }
+        scene.floor.slope = degrees.to_radians();
+    }
+    Ok((scene, text))
+}
+
+/// A shipped scene by name, or the scene of a file, with the file's text.
+fn find_scene(name: &str) -> Result<(Scene, String), Failure> {
+    if let (Some(scene), Some(text)) = (shipped::scene(name), shipped::scene_text(name)) {
+        return Ok((scene.map_err(Failure::input)?, text.to_owned()));
+    }
+    let path = std::path::Path::new(name);
+    if !path.exists() {
+        let known: Vec<_> = shipped::scene_names().collect();
+        return Err(Failure::Input(anyhow!(
+            "there is no scene {name:?}: it is neither one that ships with prone ({}) nor a file",
+            known.join(", ")
+        )));
+    }
+    let text = text_file::read(path)
+        .map_err(|error| Failure::Input(anyhow!("cannot read {name}: {error}")))?;
+    Ok((
+        scene_file::parse(name, &text).map_err(Failure::input)?,
+        text,
+    ))
+}
+
+/// Behind the last plate, leg or panel.
+fn past(world: &World) -> Result<PastObstacles, Failure> {
+    let far = |obstacle: &Obstacle| obstacle.ground_from_box.origin().x() + obstacle.half_edges.x;
+    let walls = world.obstacles().iter().filter(|it| !it.kind.is_ground());
+    let x = walls.map(far).reduce(f64::max).ok_or_else(|| {
+        Failure::Input(anyhow!(
+            "--until-past needs a plate or a panel: scene {} has none",
+            world.scene().name
+        ))
+    })?;
+    Ok(PastObstacles { x })
+}
+
+/// Of every joint of arms and legs that a pull moves, left then right, an angle drawn evenly from
+/// ±`largest`, rad.
+fn offsets(robot: &Robot, largest: f64, seed: u64) -> JointAngles {
+    let mut random = Random::new(seed);
+    let mut offsets = JointAngles::zero(robot);
+    for side in robot.chain.sides() {
+        for joint in side.commanded_joints() {
+            offsets[joint] = largest * (2.0 * random.uniform() - 1.0);
+        }
+    }
+    offsets
+}

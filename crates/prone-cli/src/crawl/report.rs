@@ -1,0 +1,81 @@
+//! What `prone crawl run` prints.
+
+use std::io::{Result, Write};
+
+use prone_sim::crawl::BodyPart;
+use prone_study::crawl::CrawlSummary;
+
+pub(super) fn print(summary: &CrawlSummary, out: &mut impl Write) -> Result<()> {
+    let s = summary;
+    writeln!(
+        out,
+        "{} on {}, scene {}: {} cycles in {:.1} s{}",
+        s.gait,
+        s.robot,
+        s.scene,
+        s.cycles,
+        s.time_s,
+        match s.arrived {
+            Some(true) => ", past the obstacles",
+            Some(false) => ", not past the obstacles",
+            None => "",
+        }
+    )?;
+    writeln!(
+        out,
+        "  distance {:.1} mm: {:.1} mm per cycle, {:.1} mm/s; {:+.1} mm to the left, heading {:+.1}°",
+        s.distance_mm, s.mm_per_cycle, s.mm_per_s, s.lateral_mm, s.yaw_deg
+    )?;
+    writeln!(
+        out,
+        "  stride of the planned chain {:.1} mm, of which {:.0} % come about",
+        s.stride_mm,
+        s.stride_efficiency * 100.0
+    )?;
+    write!(out, "  highest points, mm:")?;
+    for (part, top) in BodyPart::ALL.into_iter().zip(s.top_mm.to_array()) {
+        write!(out, " {} {top:.1}", part.name())?;
+    }
+    writeln!(out)?;
+    writeln!(
+        out,
+        "  peak torque {:.2} of rated ({}); demanded of a shoulder {:.2} N·m",
+        s.peak_torque_over_rated, s.peak_torque_joint, s.demanded_peak_shoulder_nm
+    )?;
+    writeln!(
+        out,
+        "  at the effort limit {:.1} % of the time ({})",
+        s.saturated_share * 100.0,
+        s.saturated_joint
+    )?;
+    if let Some((heat, cost)) = s.heat_per_metre_s.zip(s.cost_of_transport) {
+        writeln!(
+            out,
+            "  motor heat {heat:.0} s per metre; cost of transport {cost:.2} (positive work {:.1} J)",
+            s.work_j
+        )?;
+    }
+    if s.contacts.is_empty() {
+        writeln!(out, "  touched no plate or panel")?;
+    }
+    for contact in &s.contacts {
+        writeln!(
+            out,
+            "  touched {}: {}, {} times from {:.2} s on, {:.2} s in all, up to {:.1} N",
+            contact.obstacle,
+            contact.body,
+            contact.count,
+            contact.first_s,
+            contact.seconds,
+            contact.peak_n
+        )?;
+    }
+    for clamp in &s.clamps {
+        writeln!(
+            out,
+            "  {} is stopped at its limit in the plan: {:+.2}° cut off at most",
+            clamp.joint, clamp.largest_deg
+        )?;
+    }
+    Ok(())
+}

@@ -1,0 +1,237 @@
+//! Whole runs of `prone crawl run`.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+fn prone(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_prone"))
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+/// The summary of a run that ends well.
+fn summary(arguments: &[&str]) -> Value {
+    let done = prone(&[&["crawl", "run", "--json"], arguments].concat());
+    let message = String::from_utf8_lossy(&done.stderr);
+    assert!(done.status.success(), "{message}");
+    serde_json::from_slice(&done.stdout).unwrap()
+}
+
+fn number(value: &Value, key: &str) -> f64 {
+    value[key]
+        .as_f64()
+        .unwrap_or_else(|| panic!("{key}: {value}"))
+}
+
+/// Every file below a folder with its bytes.
+fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(next) = folders.pop() {
+        for entry in fs::read_dir(next).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                let bytes = fs::read(&path).unwrap();
+                found.insert(path.strip_prefix(folder).unwrap().to_owned(), bytes);
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn figures_agree_with_one_another() {
+    let run = summary(&[
+        "--gait",
+        "low-175",
+        "--cycles",
+        "4",
+        "--turn-deg-per-cycle",
+        "6",
+    ]);
+    let cycles = run["per_cycle"].as_array().unwrap();
+    assert_eq!(run["cycles"], 4);
+    assert_eq!(cycles.len(), 4);
+    let sum = |key: &str| cycles.iter().map(|cycle| number(cycle, key)).sum::<f64>();
+    // 1e-9: sums in another order.
+    assert!((number(&run, "time_s") - sum("time_s")).abs() < 1e-9);
+    assert!((number(&run, "yaw_deg") - sum("yaw_deg")).abs() < 1e-9);
+    assert!((number(&run, "heat_s") - sum("heat_s")).abs() < 1e-9);
+    assert!((number(&run, "work_j") - sum("work_j")).abs() < 1e-9);
+    // Steps in turned frames, put together, are the way from start to end.
+    let (mut x, mut y, mut yaw) = (0.0, 0.0, 0.0_f64);
+    for cycle in cycles {
+        let (forward, left) = (number(cycle, "advance_mm"), number(cycle, "left_mm"));
+        let (sin, cos) = yaw.sin_cos();
+        (x, y) = (
+            x + cos * forward - sin * left,
+            y + sin * forward + cos * left,
+        );
+        yaw += number(cycle, "yaw_deg").to_radians();
+    }
+    assert!((x - number(&run, "distance_mm")).abs() < 1e-6, "{x}");
+    assert!((y - number(&run, "lateral_mm")).abs() < 1e-6, "{y}");
+    assert!(yaw > 0.1, "a command to the left turns to the left: {yaw}");
+    let over = |key: &str| number(&run, "distance_mm") / number(&run, key);
+    assert!((number(&run, "mm_per_cycle") - over("cycles")).abs() < 1e-9);
+    assert!((number(&run, "mm_per_s") - over("time_s")).abs() < 1e-9);
+    let efficiency = number(&run, "mm_per_cycle") / number(&run, "stride_mm");
+    assert!((number(&run, "stride_efficiency") - efficiency).abs() < 1e-9);
+    assert!(
+        number(&run, "peak_torque_over_rated") <= 1.0 + 1e-9,
+        "effort limits are on"
+    );
+    for (part, top) in run["top_mm"].as_object().unwrap() {
+        let highest = cycles.iter().map(|cycle| number(&cycle["top_mm"], part));
+        assert_eq!(top.as_f64(), highest.reduce(f64::max), "{part}");
+    }
+    assert_eq!(run["plate_contacts"], 0);
+    assert_eq!(run["contacts"], Value::Array(Vec::new()));
+    assert_eq!(run["arrived"], Value::Null);
+}
+
+/// Under a plate low enough, the contacts are counted; past a short one, the run ends.
+#[test]
+fn plates_are_touched_or_passed() {
+    let low = [
+        "--gait",
+        "low-175",
+        "--ceiling-mm",
+        "150",
+        "--length-m",
+        "1",
+        "--cycles",
+        "3",
+    ];
+    let low = summary(&low);
+    let contacts = low["contacts"].as_array().unwrap();
+    assert!(!contacts.is_empty());
+    let counts = contacts
+        .iter()
+        .map(|contact| contact["count"].as_u64().unwrap());
+    assert_eq!(Some(counts.sum()), low["plate_contacts"].as_u64());
+    for contact in contacts {
+        assert!(number(contact, "peak_n") > 0.0, "{contact}");
+        assert!(number(contact, "first_s") + number(contact, "seconds") <= number(&low, "time_s"));
+    }
+    let passed = summary(&[
+        "--gait",
+        "low-175",
+        "--ceiling-mm",
+        "178",
+        "--length-m",
+        "0.2",
+        "--until-past",
+        "--heading-hold",
+        "--joint-offset-deg",
+        "1",
+        "--seed",
+        "3",
+        "--friction-left",
+        "0.5",
+        "--friction-right",
+        "0.9",
+    ]);
+    assert_eq!(passed["arrived"], true);
+    assert_eq!(passed["plate_contacts"], 0);
+    // Robot and plate: some 0.6 m and 0.25 m.
+    assert!(
+        (600.0..1200.0).contains(&number(&passed, "distance_mm")),
+        "{passed}"
+    );
+    assert!(number(&passed, "lateral_mm").abs() < 50.0);
+}
+
+#[test]
+fn records_are_the_same_on_any_number_of_threads_and_replace_each_other() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path().join("record");
+    let mut runs = Vec::new();
+    for threads in ["1", "2"] {
+        let done = prone(&[
+            "crawl",
+            "run",
+            "--gait",
+            "low-175",
+            "--cycles",
+            "2",
+            "--scene",
+            "table",
+            "--joint-offset-deg",
+            "1",
+            "--seed",
+            "7",
+            "--threads",
+            threads,
+            "--record",
+            folder.to_str().unwrap(),
+        ]);
+        let message = String::from_utf8_lossy(&done.stderr);
+        assert!(done.status.success(), "{message}");
+        let mut files = files(&folder);
+        assert!(files.remove(Path::new("timing.json")).is_some());
+        runs.push((done.stdout, files));
+    }
+    let names: Vec<_> = runs[0]
+        .1
+        .keys()
+        .map(|path| path.display().to_string())
+        .collect();
+    assert_eq!(
+        names,
+        [
+            "contacts.csv",
+            "cycles.csv",
+            "figures/fig-28-low-175-sequence.png",
+            "figures/fig-28-low-175-sequence.svg",
+            "figures/fig-31-low-175-angles.png",
+            "figures/fig-31-low-175-angles.svg",
+            "model.json",
+            "plate-contacts.csv",
+            "rows.csv",
+            "run.json",
+            "summary.json",
+        ]
+    );
+    assert!(runs[0] == runs[1], "output or a file differs");
+    let text = |name: &str| String::from_utf8(runs[0].1[Path::new(name)].clone()).unwrap();
+    let rows = text("rows.csv");
+    // 2.8 s a cycle, one row per 20 ms.
+    assert_eq!(rows.lines().count(), 1 + 2 * 140);
+    let columns = rows.lines().next().unwrap().split(',').count();
+    assert!(rows.lines().all(|line| line.split(',').count() == columns));
+    assert_eq!(text("cycles.csv").lines().count(), 1 + 2);
+    let run: Value = serde_json::from_str(&text("run.json")).unwrap();
+    assert_eq!(run["options"]["seed"], 7);
+    assert_eq!(
+        run["options"]["joint_offsets_rad"]
+            .as_array()
+            .unwrap()
+            .len(),
+        14
+    );
+    assert_eq!(run["regime"]["name"], "locomotion");
+    assert_eq!(run["scene"]["friction_left"], 0.7);
+    let model: Value = serde_json::from_str(&text("model.json")).unwrap();
+    assert_eq!(model["obstacles"].as_array().unwrap().len(), 7);
+    assert!(!model["shapes"].as_array().unwrap().is_empty());
+}
+
+#[test]
+fn a_record_replaces_nothing_that_is_not_one() {
+    let home = tempfile::tempdir().unwrap();
+    fs::write(home.path().join("cat.jpg"), b"cat").unwrap();
+    let record = home.path().to_str().unwrap();
+    let refused = prone(&["crawl", "run", "--gait", "low-175", "--record", record]);
+    let message = String::from_utf8(refused.stderr).unwrap();
+    assert_eq!(refused.status.code(), Some(2), "{message}");
+    assert!(message.contains("is not an earlier result"), "{message}");
+    assert_eq!(fs::read_dir(home.path()).unwrap().count(), 1);
+}

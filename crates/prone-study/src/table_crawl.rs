@@ -1,0 +1,141 @@
+//! The two experiments of the original under its table, crawled again in simulation.
+
+use serde::Serialize;
+
+use prone::gait::cycle::{Cycle, CycleError, TimeScale};
+use prone::scene::Scene;
+use prone_sim::crawl::{
+    self, Crawl, CrawlError, CrawlPlan, Decision, Detail, End, Moment, Pilot, Straight,
+};
+use prone_sim::{LoadedRobot, Regime, World, WorldError};
+
+use crate::crawl::{CrawlSummary, summary};
+use crate::published::{TABLE_CRAWLS, TableCrawl};
+use crate::torque_study::Observer;
+
+/// How the published figures came about.
+const PUBLISHED_BY: &str = "on the real robot, distance and time as printed";
+
+/// How ours came about.
+const OURS_BY: &str = "in simulation, displacement of the trunk's frame; at the gait's own 3 s a \
+                       cycle: the 2.3 s of the second experiment would be too fast for a shoulder \
+                       on our way back";
+
+/// What is crawled, and where.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TableStudy {
+    /// The cycle.
+    pub cycle: Cycle,
+    /// The table.
+    pub scene: Scene,
+}
+
+/// One experiment, ours beside the published one.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TableExperiment {
+    /// From 1.
+    pub experiment: usize,
+    /// What was published.
+    pub published: TableCrawl,
+    /// How that was obtained.
+    pub published_obtained: &'static str,
+    /// What our simulation does.
+    pub ours: CrawlSummary,
+    /// How that was obtained.
+    pub ours_obtained: &'static str,
+}
+
+/// Both experiments.
+pub(crate) struct TableResult {
+    pub(crate) world: World,
+    pub(crate) experiments: Vec<TableExperiment>,
+    /// The longer one, with rows.
+    pub(crate) longest: Crawl,
+    pub(crate) engine_steps: usize,
+}
+
+/// Why there is no result.
+#[derive(Debug, thiserror::Error)]
+pub enum TableError {
+    /// The table cannot be built.
+    #[error(transparent)]
+    World(#[from] WorldError),
+    /// The cycle does not fit the robot.
+    #[error(transparent)]
+    Cycle(#[from] CycleError),
+    /// The crawl has no record.
+    #[error(transparent)]
+    Crawl(#[from] CrawlError),
+}
+
+/// Crawls straight ahead, until the user stops it.
+struct Observed<'a>(&'a dyn Observer);
+
+impl Pilot for Observed<'_> {
+    fn decide(&mut self, now: &Moment<'_, '_>) -> Result<Decision, CrawlError> {
+        if self.0.stop() {
+            return Err(CrawlError::Stopped);
+        }
+        Straight::default().decide(now)
+    }
+}
+
+/// Simulates both, one after the other.
+pub(crate) fn run(
+    robot: &LoadedRobot,
+    study: &TableStudy,
+    observer: &dyn Observer,
+) -> Result<TableResult, TableError> {
+    let world = World::in_scene(robot, Regime::LOCOMOTION, &study.scene)?;
+    let [short, long] = TABLE_CRAWLS;
+    let (first, shortest) = experiment(&world, study, 1, short, observer)?;
+    let (second, longest) = experiment(&world, study, 2, long, observer)?;
+    Ok(TableResult {
+        engine_steps: shortest.engine_steps + longest.engine_steps,
+        experiments: vec![first, second],
+        longest,
+        world,
+    })
+}
+
+fn experiment(
+    world: &World,
+    study: &TableStudy,
+    number: usize,
+    published: TableCrawl,
+    observer: &dyn Observer,
+) -> Result<(TableExperiment, Crawl), TableError> {
+    let cycles = [study.cycle.clone()];
+    let plan = CrawlPlan {
+        cycles: &cycles,
+        scale: TimeScale::ONE,
+        end: End::Cycles(published.cycles),
+        offsets: None,
+        detail: Detail::Rows,
+    };
+    let crawl = crawl::run(world, &plan, &mut Observed(observer))?;
+    let ours = summary::of(world, &study.cycle, TimeScale::ONE, &crawl, None)?;
+    observer.phase_done();
+    let experiment = TableExperiment {
+        experiment: number,
+        published,
+        published_obtained: PUBLISHED_BY,
+        ours,
+        ours_obtained: OURS_BY,
+    };
+    Ok((experiment, crawl))
+}
+
+impl TableExperiment {
+    /// With what it touched what, in words.
+    pub fn touched(&self) -> String {
+        if self.ours.contacts.is_empty() {
+            return "touched nothing".to_owned();
+        }
+        let touched = self.ours.contacts.iter();
+        let parts: Vec<String> = touched
+            .map(|contact| format!("{} with {}", contact.obstacle, contact.body))
+            .collect();
+        format!("touched {}", parts.join(", "))
+    }
+}
