@@ -13,7 +13,7 @@ mod touch;
 
 pub use measure::{Advance, BodyPart, CycleRow, Effort, JointEffort, Row, Tops};
 pub use pilot::{
-    Bearing, BearingSource, Decision, Exact, HoldLine, Moment, Pilot, Stage, Straight,
+    Bearing, BearingSource, Decision, Exact, HoldHeading, HoldLine, Moment, Pilot, Stage, Straight,
 };
 pub use slope::SlopeAware;
 pub use touch::Touch;

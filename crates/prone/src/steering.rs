@@ -11,6 +11,8 @@
 //! all the time, unequal friction or a joint that is off, is learnt by the sum (b), which stops
 //! growing while the command is at its limit.
 
+use std::f64::consts::TAU;
+
 /// Where a robot is and where it heads, in the frame of the line that it is to follow.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Bearing {
@@ -62,9 +64,48 @@ impl HeadingHold {
     }
 }
 
+/// Turning to a heading and keeping it, wherever that leads: u = clip(k (ψ* − ψ), ±limit).
+///
+/// Of a command the robot turns a half to nine tenths (by its gait and the ground), so that with
+/// k = 1 the error shrinks from cycle to cycle and never changes its sign.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TurnTo {
+    /// ψ*, rad, positive to the left.
+    pub heading: f64,
+    /// The largest |u|, rad.
+    pub limit: f64,
+}
+
+impl TurnTo {
+    /// The turn command for the next cycle, rad: the shorter way round.
+    pub fn turn(&self, bearing: Bearing) -> f64 {
+        let error = self.heading - bearing.yaw;
+        let shorter = error - (error / TAU).round() * TAU;
+        shorter.clamp(-self.limit, self.limit)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_heading_is_turned_to_the_shorter_way_and_no_faster_than_the_limit() {
+        let turn = |heading: f64, yaw: f64| {
+            let bearing = Bearing {
+                yaw,
+                ..Bearing::default()
+            };
+            TurnTo {
+                heading,
+                limit: 0.2,
+            }
+            .turn(bearing)
+        };
+        assert!((turn(1.0, 0.0) - 0.2).abs() < f64::EPSILON);
+        assert!((turn(1.0, 0.9) - 0.1).abs() < 1e-12);
+        assert!(turn(3.0, -3.0) < 0.0, "to the right across 180°");
+    }
 
     #[test]
     fn a_robot_that_heads_left_or_is_left_of_the_line_turns_right() {

@@ -69,6 +69,9 @@ pub(crate) struct CrawlRunArgs {
     /// Turn each cycle so that the robot keeps to its line; it knows where it is from the simulation
     #[arg(long, conflicts_with = "turn_deg_per_cycle")]
     pub(crate) heading_hold: bool,
+    /// Turn to this heading and keep it, degrees from the first one, positive to the left
+    #[arg(long, value_name = "H", conflicts_with_all = ["heading_hold", "turn_deg_per_cycle"], value_parser = heading, allow_negative_numbers = true)]
+    pub(crate) heading_deg: Option<f64>,
     /// Turn command of every cycle, degrees, positive to the left: what the arms are asked to turn,
     /// of which the robot turns a part
     #[arg(long, value_name = "U", allow_negative_numbers = true)]
@@ -132,6 +135,15 @@ pub(crate) enum ServoName {
 
 /// Largest calibration error, degrees: beyond it a robot is broken.
 const LARGEST_OFFSET_DEG: f64 = 10.0;
+
+fn heading(text: &str) -> Result<f64, String> {
+    let degrees: f64 = text.trim().parse().map_err(|_| "not a number".to_owned())?;
+    if (-180.0..=180.0).contains(&degrees) {
+        Ok(degrees)
+    } else {
+        Err(format!("{degrees} degrees is outside -180..180"))
+    }
+}
 
 fn offset(text: &str) -> Result<f64, String> {
     let degrees: f64 = text.trim().parse().map_err(|_| "not a number".to_owned())?;

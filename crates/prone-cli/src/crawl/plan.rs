@@ -5,9 +5,10 @@ use anyhow::anyhow;
 use prone::gait::cycle::{CheckedCycle, Cycle};
 use prone::robot::{JointAngles, Robot};
 use prone::scene::{Obstacle, Scene, SideFriction};
+use prone::steering::TurnTo;
 use prone_files::{scene_file, shipped, text_file};
 use prone_optim::Random;
-use prone_sim::crawl::{End, Exact, HoldLine, Pilot, SlopeAware, Straight};
+use prone_sim::crawl::{End, Exact, HoldHeading, HoldLine, Pilot, SlopeAware, Straight};
 use prone_sim::imu::SimulatedImu;
 use prone_sim::regime::Servo;
 use prone_sim::{LoadedRobot, Regime, World};
@@ -45,6 +46,7 @@ pub(super) struct Plan {
 enum Steering {
     Straight { turn: f64 },
     Hold { limit: f64 },
+    To(TurnTo),
 }
 
 impl Plan {
@@ -90,10 +92,12 @@ impl Plan {
             time_scale: args.time_scale.value(),
             steering: match steering {
                 Steering::Hold { .. } => "heading-hold",
+                Steering::To(_) => "heading",
                 Steering::Straight { .. } if args.turn_deg_per_cycle.is_some() => "constant",
                 Steering::Straight { .. } => "none",
             },
             turn_command_deg: args.turn_deg_per_cycle.unwrap_or_default(),
+            heading_deg: args.heading_deg,
             joint_offset_deg: args.joint_offset_deg.unwrap_or_default(),
             seed: args.seed,
             joint_offsets_rad: Conditions::offsets_by_name(world.robot(), offsets.as_ref()),
@@ -130,6 +134,7 @@ impl Plan {
         let steering: Box<dyn Pilot> = match self.steering {
             Steering::Straight { turn } => Box::new(Straight { turn }),
             Steering::Hold { limit } => Box::new(HoldLine::new(Exact, limit)),
+            Steering::To(to) => Box::new(HoldHeading { source: Exact, to }),
         };
         match &self.imu {
             None => steering,
@@ -147,22 +152,28 @@ impl Steering {
         match self {
             // The first pull is straight.
             Self::Straight { turn } => [0.0, turn],
-            Self::Hold { limit } => [-limit, limit],
+            Self::Hold { limit } | Self::To(TurnTo { limit, .. }) => [-limit, limit],
         }
     }
 }
 
 fn steering(args: &CrawlRunArgs, gait: &GaitSource) -> Result<Steering, Failure> {
-    if !args.heading_hold {
+    if !args.heading_hold && args.heading_deg.is_none() {
         let turn = args.turn_deg_per_cycle.unwrap_or_default().to_radians();
         return Ok(Steering::Straight { turn });
     }
     match &gait.cycle.steering {
-        Some(steering) => Ok(Steering::Hold {
-            limit: steering.limit,
+        Some(steering) => Ok(match args.heading_deg {
+            None => Steering::Hold {
+                limit: steering.limit,
+            },
+            Some(degrees) => Steering::To(TurnTo {
+                heading: degrees.to_radians(),
+                limit: steering.limit,
+            }),
         }),
         None => Err(Failure::Input(anyhow!(
-            "--heading-hold needs a cycle that can turn; {} has no [steering]",
+            "--heading-hold and --heading-deg need a cycle that can turn; {} has no [steering]",
             gait.cycle.pull.name
         ))),
     }

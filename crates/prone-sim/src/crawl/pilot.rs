@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use prone::frames::{Ground, Root, Transform};
 pub use prone::steering::Bearing;
-use prone::steering::HeadingHold;
+use prone::steering::{HeadingHold, TurnTo};
 
 use super::CrawlError;
 use crate::simulation::Simulation;
@@ -125,6 +125,29 @@ impl<S: BearingSource> Pilot for HoldLine<S> {
         Ok(Decision {
             cycle: 0,
             turn: self.hold.turn(bearing),
+        })
+    }
+
+    fn sense(&mut self, now: &Moment<'_, '_>) {
+        self.source.sense(now);
+    }
+}
+
+/// The same cycle for ever, turned to a heading.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HoldHeading<S> {
+    /// Where it learns its heading.
+    pub source: S,
+    /// Where it turns to.
+    pub to: TurnTo,
+}
+
+impl<S: BearingSource> Pilot for HoldHeading<S> {
+    fn decide(&mut self, now: &Moment<'_, '_>) -> Result<Decision, CrawlError> {
+        let bearing = self.source.bearing(now)?;
+        Ok(Decision {
+            cycle: 0,
+            turn: self.to.turn(bearing),
         })
     }
 

@@ -37,10 +37,12 @@ pub struct Conditions {
     pub until_past_mm: Option<f64>,
     /// What durations were multiplied by.
     pub time_scale: f64,
-    /// `none`, `constant` or `heading-hold`.
+    /// `none`, `constant`, `heading` or `heading-hold`.
     pub steering: &'static str,
     /// The constant turn command, degrees.
     pub turn_command_deg: f64,
+    /// The heading that was turned to, degrees.
+    pub heading_deg: Option<f64>,
     /// Largest calibration error of a joint, degrees.
     pub joint_offset_deg: f64,
     /// Of those errors.
