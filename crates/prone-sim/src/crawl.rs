@@ -30,6 +30,9 @@ use measure::Meter;
 /// Time between two commands, s: the cycle of the motor boards of the first robot that crawled so.
 pub const COMMAND_STEP: f64 = 0.01;
 
+/// Last part of settling in which a pilot's senses are on, s.
+const FELT_AT_REST: f64 = 0.3;
+
 /// Time between two rows of a record, s.
 pub const ROW_STEP: f64 = 0.02;
 
@@ -151,7 +154,7 @@ pub fn run(
         gait: first.pull.name.clone(),
         source,
     };
-    let simulation = settle(world, &planned, plan).map_err(|source| broken(0, source))?;
+    let simulation = settle(world, &planned, plan, pilot).map_err(|source| broken(0, source))?;
     let start = simulation.snapshot();
     let mut crawler = Crawler {
         world,
@@ -240,6 +243,7 @@ fn settle<'w>(
     world: &'w World,
     planned: &Planned,
     plan: &CrawlPlan<'_>,
+    pilot: &mut dyn Pilot,
 ) -> Result<Simulation<'w>, SimulationError> {
     let placement = Placement {
         posture: planned.checked.extension().clone(),
@@ -248,8 +252,18 @@ fn settle<'w>(
     let mut simulation = Simulation::new(world, &placement);
     simulation.place_front_at(0.0);
     simulation.command(&off_by(world, plan, planned.checked.extension().clone()));
-    for _ in 0..world.regime().steps_in(SETTLE) {
+    let (steps, felt) = (
+        world.regime().steps_in(SETTLE),
+        world.regime().steps_in(FELT_AT_REST),
+    );
+    for step in 0..steps {
         simulation.step();
+        if step + felt >= steps {
+            pilot.sense(&Moment {
+                simulation: &simulation,
+                stage: Stage::Recovery,
+            });
+        }
     }
     simulation.check()?;
     Ok(simulation)

@@ -5,6 +5,7 @@
 
 mod imu;
 mod kinematics;
+mod level;
 mod mirror;
 mod shape;
 #[cfg(test)]

@@ -10,7 +10,9 @@ use crate::imu::SimulatedImu;
 const CARRIED: (f64, f64) = (0.3, 0.95);
 
 /// Crawls one cycle on the flat and another uphill. The slope is what the inertial unit tells of
-/// the trunk's pitch, less the pitch that the chain has on level ground, mean over the pull.
+/// the trunk's pitch, less the pitch that the measured joints would give it on a level floor
+/// ([`prone::robot::Robot::level_pitch`]: the planned chain knows neither sag nor the thickness of
+/// an elbow, which is worth 3°), mean over the pull.
 #[derive(Debug)]
 pub struct SlopeAware<P> {
     /// Who steers; its choice of cycle is replaced.
@@ -65,7 +67,7 @@ impl<P: Pilot> Pilot for SlopeAware<P> {
         self.steering.sense(now);
         let reading = self.imu.read(now.simulation);
         let Some(filter) = &mut self.filter else {
-            // At rest before the first pull.
+            // At rest: the crawl lets it feel that before the first pull.
             self.filter = AttitudeFilter::aligned(Gains::PUBLISHED, &reading).ok();
             return;
         };
@@ -74,7 +76,9 @@ impl<P: Pilot> Pilot for SlopeAware<P> {
         }
         if let Stage::Pull { s, planned_pitch } = now.stage
             && (CARRIED.0..CARRIED.1).contains(&s)
-            && let Ok(slope) = filter.attitude().slope(planned_pitch)
+            && let robot = now.simulation.robot()
+            && let Some(level) = robot.level_pitch(&now.simulation.joint_angles(), planned_pitch)
+            && let Ok(slope) = filter.attitude().slope(level)
         {
             self.sum += slope;
             self.count += 1.0;

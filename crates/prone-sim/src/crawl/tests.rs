@@ -101,3 +101,38 @@ fn left_mirrors_right() {
     assert!((left + right).abs() < 0.1 * left, "{left}° and {right}°");
     assert!((there - back).abs() < 0.1 * there, "{there} and {back} mm");
 }
+
+/// The slope that each pull feels, rad, and the cycles that were crawled.
+fn felt(degrees: f64) -> (Vec<f64>, Vec<String>) {
+    let robot = nao();
+    let mut scene = prone::scene::Scene::level();
+    scene.floor.slope = degrees.to_radians();
+    let world = World::in_scene(&robot, Regime::LOCOMOTION, &scene).unwrap();
+    let cycles = ["low-165", "low-175"].map(|name| shipped::cycle(name).unwrap().unwrap());
+    let plan = CrawlPlan {
+        cycles: &cycles,
+        scale: TimeScale::ONE,
+        end: End::Cycles(4),
+        offsets: None,
+        detail: Detail::Sums,
+    };
+    let imu = crate::imu::SimulatedImu::new(&world, 1).unwrap();
+    let mut pilot = SlopeAware::new(Straight::default(), imu, 4.0_f64.to_radians());
+    let crawl = run(&world, &plan, &mut pilot).unwrap();
+    let gaits = crawl.cycles.iter().map(|cycle| cycle.gait.clone());
+    (pilot.felt().to_vec(), gaits.collect())
+}
+
+#[test]
+fn a_slope_is_felt_and_only_uphill_the_other_cycle_is_taken() {
+    for degrees in [-10.0, 0.0, 10.0] {
+        let (slopes, gaits) = felt(degrees);
+        for slope in slopes {
+            let off = slope.to_degrees() - degrees;
+            assert!(off.abs() < 1.5, "{off}° on a slope of {degrees}°");
+        }
+        let uphill = if degrees > 4.0 { "low-175" } else { "low-165" };
+        // The first cycle is begun before anything is felt.
+        assert!(gaits[1..].iter().all(|gait| gait == uphill), "{degrees}°: {gaits:?}");
+    }
+}
