@@ -101,9 +101,10 @@ pub fn gait(name: &str) -> Option<Result<Gait, FileError>> {
 }
 
 /// Names and texts of the scenes that ship with the program.
-const SCENES: [(&str, &str); 5] = [
+const SCENES: [(&str, &str); 6] = [
     ("plate-200", include_str!("../../../scenes/plate-200.toml")),
     ("table", include_str!("../../../scenes/table.toml")),
+    ("bend", include_str!("../../../scenes/bend.toml")),
     ("ramp", include_str!("../../../scenes/ramp.toml")),
     ("rough-5", include_str!("../../../scenes/rough-5.toml")),
     ("rough-10", include_str!("../../../scenes/rough-10.toml")),
