@@ -1,7 +1,8 @@
 //! What a whole cycle costs, by simulation in the locomotion regime.
 //!
 //! A cycle is crawled in one or more settings (friction, servo, time scale). In the main ones the
-//! value is averaged: heat per metre, advance per cycle or speed. In all of them the rules are
+//! value is averaged: heat per metre (geometrically: with stiff servos it is five times that with
+//! soft ones, and a percent is a percent), advance per cycle or speed. In all of them the rules are
 //! held: nothing higher than the ceiling, enough advance, no torque over the limit, the body's
 //! weight on toes and elbows. What is broken adds up, each in shares of its limit, and compares
 //! before the value. The settings are taken in order, and those after one that breaks a rule are
@@ -210,13 +211,19 @@ impl<'a> CyclePricer<'a> {
                 .map_or(trial.advance, |first: &Trial| first.advance);
             price.violation += self.broken(setting, &trial, first);
             if setting.role == Role::Value {
-                sum += self.value(&trial);
+                sum += match self.objective {
+                    CycleObjective::Heat => self.value(&trial).ln(),
+                    CycleObjective::Advance | CycleObjective::Speed => self.value(&trial),
+                };
                 count += 1.0;
             }
             price.trials.push(trial);
         }
         if count > 0.0 {
-            price.value = sum / count;
+            price.value = match self.objective {
+                CycleObjective::Heat => (sum / count).exp(),
+                CycleObjective::Advance | CycleObjective::Speed => sum / count,
+            };
         }
         price
     }
