@@ -257,3 +257,65 @@ fn completed(robot: &Robot, cycle: &Cycle) -> Result<Cycle, CycleError> {
     }
     Ok(completed)
 }
+
+#[cfg(test)]
+mod tests {
+    use prone_files::shipped;
+    use prone_sim::{LoadedRobot, RobotFiles};
+
+    use super::*;
+
+    /// The middle of the box crawls the middle's cycle: the same postures, named everywhere.
+    #[test]
+    fn the_middle_of_the_box_is_the_cycle() {
+        let loaded = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
+        let robot = loaded.robot();
+        for name in ["low-175", "low-165"] {
+            let cycle = shipped::cycle(name).unwrap().unwrap();
+            let form = CycleForm::about(robot, &cycle).unwrap();
+            let point = form.point(&form.middle);
+            let again = form.cycle(&point).unwrap();
+            let stops = robot.stops();
+            let plan = |cycle: &Cycle| {
+                CheckedCycle::plan(robot, &stops, cycle, 0.0, TimeScale::ONE).unwrap()
+            };
+            let (one, other) = (plan(&cycle), plan(&again));
+            let path = |checked: &CheckedCycle| {
+                checked
+                    .recovery_from(checked.compression().clone())
+                    .unwrap()
+            };
+            let (back, forth) = (path(&one), path(&other));
+            for k in 0..=20 {
+                let t = f64::from(k) / 20.0;
+                let seconds = t * one.recovery_seconds();
+                for (one, other) in [
+                    (one.pull_at(t), other.pull_at(t)),
+                    (back.at(seconds), forth.at(seconds)),
+                ] {
+                    let pairs = one.as_slice().iter().zip(other.as_slice());
+                    for (a, b) in pairs {
+                        assert!((a - b).abs() < 1e-9, "{name} at {t}: {a} and {b}");
+                    }
+                }
+            }
+        }
+    }
+
+    impl CycleForm {
+        /// The numbers of a cycle whose curves are straight.
+        fn point(&self, cycle: &Cycle) -> Vec<f64> {
+            let at =
+                |curve: &Curve, control: usize| curve.value(control as f64 / (CONTROLS - 1) as f64);
+            let numbers = self.variables.iter().map(|variable| match variable {
+                Variable::Curve(PullCurve::Knee, control) => at(&cycle.pull.knee, *control),
+                Variable::Curve(PullCurve::Hip, control) => at(&cycle.pull.hip, *control),
+                Variable::Curve(PullCurve::UpperArm, c) => at(&cycle.pull.upper_arm, *c),
+                Variable::Curve(PullCurve::Company(joint), c) => at(&cycle.company[joint], *c),
+                Variable::Joint(index, joint) => cycle.recovery[*index].joints[joint],
+                Variable::Time(index) => times(cycle)[*index],
+            });
+            numbers.collect()
+        }
+    }
+}
