@@ -70,7 +70,7 @@ pub(crate) fn frontier(args: &FrontierArgs) -> Result<(), Failure> {
         AgainstName::Advance => CycleObjective::Advance,
         AgainstName::Heat => CycleObjective::Heat,
     };
-    let settings = settings_for(objective, &robot)?;
+    let settings = settings_for(objective, steered(args.steerable), &robot)?;
     let mut jobs: Vec<Job<'_>> = Vec::with_capacity(args.ceilings_mm.len());
     for &mm in &args.ceilings_mm {
         let same = |job: &Job<'_>| {
@@ -90,6 +90,7 @@ pub(crate) fn frontier(args: &FrontierArgs) -> Result<(), Failure> {
         "ceilings_mm": args.ceilings_mm,
         "objective": objective.name(),
         "margin_mm": args.margin_mm,
+        "steerable": args.steerable,
         "from": from,
         "seed": args.seed,
         "runs": args.runs,
@@ -128,7 +129,7 @@ pub(crate) fn optimize(args: &OptimizeArgs) -> Result<(), Failure> {
     let robot = crate::robot::load(args.pricing.robot.as_deref())?;
     let from = names(args.pricing.from.as_slice());
     let cycles = passage::cycles(&from)?;
-    let settings = settings_for(objective, &robot)?;
+    let settings = settings_for(objective, steered(args.steerable), &robot)?;
     let height = args.ceiling_mm.map_or(f64::INFINITY, |mm| mm * 1e-3);
     let base = frontier::base(&robot, &settings[0], &cycles, height).map_err(Failure::input)?;
     let usual = rules_for(objective, height, base);
@@ -145,6 +146,7 @@ pub(crate) fn optimize(args: &OptimizeArgs) -> Result<(), Failure> {
         "source": "cycle",
         "objective": objective.name(),
         "ceiling_mm": args.ceiling_mm,
+        "steerable": args.steerable,
         "least_advance_mm": rules.advance * 1e3,
         "demanded_shoulder_nm": args.demanded_shoulder_nm,
         "body_share_percent": args.body_share_percent,
@@ -230,12 +232,32 @@ fn below(ceiling_mm: f64, margin_mm: f64) -> Result<f64, Failure> {
     )))
 }
 
-fn settings_for(objective: CycleObjective, robot: &LoadedRobot) -> Result<Vec<Setting>, Failure> {
+/// Whether a cycle has to be steered.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Steered {
+    Yes,
+    No,
+}
+
+/// As it was typed.
+const fn steered(flag: bool) -> Steered {
+    if flag { Steered::Yes } else { Steered::No }
+}
+
+fn settings_for(
+    objective: CycleObjective,
+    steered: Steered,
+    robot: &LoadedRobot,
+) -> Result<Vec<Setting>, Failure> {
     let settings = match objective {
         CycleObjective::Heat => settings::for_heat(robot),
         CycleObjective::Advance | CycleObjective::Speed => settings::for_advance(robot),
     };
-    settings.map_err(Failure::input)
+    let mut settings = settings.map_err(Failure::input)?;
+    if steered == Steered::Yes {
+        settings.extend(settings::for_steering(robot).map_err(Failure::input)?);
+    }
+    Ok(settings)
 }
 
 fn confirmation_for(

@@ -115,6 +115,7 @@ pub(crate) fn run(args: &OptimizeArgs) -> Result<(), Failure> {
 fn refuse_cycle_options(args: &OptimizeArgs) -> Result<(), Failure> {
     let given = [
         ("--ceiling-mm", args.ceiling_mm.is_some()),
+        ("--steerable", args.steerable),
         ("--least-advance-mm", args.least_advance_mm.is_some()),
         (
             "--demanded-shoulder-nm",

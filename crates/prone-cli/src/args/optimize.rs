@@ -79,6 +79,9 @@ pub(crate) struct OptimizeArgs {
     /// cycle: height below which everything stays, mm [default: none]
     #[arg(long, value_name = "H", value_parser = super::passage::height, allow_negative_numbers = true)]
     pub(crate) ceiling_mm: Option<f64>,
+    /// cycle: only cycles that can be steered, as in `prone crawl frontier --steerable`
+    #[arg(long)]
+    pub(crate) steerable: bool,
     /// cycle: least advance per cycle, mm [default: 120 for heat, else 10]
     #[arg(long, value_name = "MM", value_parser = super::passage::height, allow_negative_numbers = true)]
     pub(crate) least_advance_mm: Option<f64>,

@@ -78,6 +78,10 @@ pub(crate) struct FrontierArgs {
     /// the lowest [default: low-175 and low-165]
     #[arg(long, value_name = "GAIT")]
     pub(crate) from: Vec<String>,
+    /// Search cycles that can be steered: at the largest turn command they turn 6° a cycle, and
+    /// friction of 0.5 on the left and 0.9 on the right turns them by less than half of that
+    #[arg(long)]
+    pub(crate) steerable: bool,
     /// Go on from the checkpoint of an interrupted search, if there is one
     #[arg(long)]
     pub(crate) resume: bool,

@@ -54,6 +54,8 @@ pub struct Setting {
     pub pull: Option<PhaseDuration>,
     /// How many cycles; the last one is measured.
     pub cycles: usize,
+    /// Turn command, in shares of the cycle's limit; the first pull is straight all the same.
+    pub turn: f64,
     /// What it is for.
     pub role: Role,
 }
@@ -65,6 +67,10 @@ pub enum Role {
     Value,
     /// It has to advance by at least that share of the first setting's advance.
     Keep(f64),
+    /// It has to turn to the left by at least that angle a cycle, rad.
+    Turn(f64),
+    /// It may not turn by more than that angle a cycle, rad, and keeps half of the advance.
+    Straight(f64),
 }
 
 /// What holds in every setting.
@@ -289,8 +295,14 @@ impl<'a> CyclePricer<'a> {
         let least = match setting.role {
             Role::Value => rules.advance,
             Role::Keep(share) => share * first_advance.max(rules.advance),
+            Role::Turn(_) | Role::Straight(_) => 0.5 * first_advance.max(rules.advance),
         };
         let mut broken = (1.0 - trial.advance / least).max(0.0);
+        broken += match setting.role {
+            Role::Turn(angle) => (1.0 - trial.yaw / angle).max(0.0),
+            Role::Straight(angle) => over(trial.yaw.abs(), angle),
+            Role::Value | Role::Keep(_) => 0.0,
+        };
         broken += over(trial.top.0, rules.ceiling);
         if rules.body_share < 1.0 && setting.role == Role::Value {
             broken += (trial.body_share - rules.body_share).max(0.0);
@@ -352,7 +364,14 @@ pub fn try_out(setting: &Setting, cycle: &Cycle) -> Result<Trial, CrawlError> {
         offsets: None,
         detail: Detail::Sums,
     };
-    let crawl = crawl::run(&setting.world, &plan, &mut Straight::default())?;
+    let limit = cycle
+        .steering
+        .as_ref()
+        .map_or(0.0, |steering| steering.limit);
+    let mut pilot = Straight {
+        turn: setting.turn * limit,
+    };
+    let crawl = crawl::run(&setting.world, &plan, &mut pilot)?;
     Ok(measured(setting, &crawl))
 }
 

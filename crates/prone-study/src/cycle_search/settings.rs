@@ -5,6 +5,7 @@
 
 use prone::gait::cycle::{Cycle, TimeScale, TimeScaleError};
 use prone::gait::{PhaseDuration, PhaseDurationError};
+use prone::scene::{Scene, SideFriction};
 use prone_sim::regime::Servo;
 use prone_sim::{LoadedRobot, Regime, World, WorldError};
 
@@ -19,6 +20,13 @@ const FAST: f64 = 0.8;
 const SLOW: f64 = 1.7;
 /// Velocity gain of stiff servos, N·m·s/rad: with the servo law's 20/s, 400 N·m/rad.
 const STIFF: f64 = 20.0;
+/// Friction on the left and on the right of uneven ground.
+const UNEVEN: (f64, f64) = (0.5, 0.9);
+/// Turn a cycle at the largest command, rad: 6°.
+const TURN: f64 = 0.105;
+/// Turn a cycle on uneven ground without any command, rad: 2.5°, so that less than half of the
+/// command is spent on keeping straight.
+const DRIFT: f64 = 0.044;
 /// Share of the advance that a search keeps where it has to hold: a confirmation asks for less.
 const KEEP: f64 = 0.85;
 /// Share that a confirmation asks for.
@@ -58,6 +66,7 @@ impl Maker<'_> {
             world: World::new(self.robot, regime)?,
             scale: TimeScale::new(scale)?,
             pull: None,
+            turn: 0.0,
             cycles,
             role,
         })
@@ -97,6 +106,38 @@ pub fn for_advance(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
             1,
             Role::Keep(KEEP),
         )?,
+    ])
+}
+
+/// What a search adds where its cycle has to be steered: at the largest command it turns, and ground
+/// that is more slippery on the left turns it by less than that.
+///
+/// # Errors
+/// [`SettingError`].
+pub fn for_steering(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
+    let maker = maker(robot);
+    let mut uneven = Scene::level();
+    uneven.floor.friction = Some(SideFriction {
+        left: UNEVEN.0,
+        right: UNEVEN.1,
+    });
+    let turning = maker.make("turning", maker.regime, 1.0, 3, Role::Turn(TURN))?;
+    let straight = maker.make(
+        "uneven friction",
+        maker.regime,
+        1.0,
+        3,
+        Role::Straight(DRIFT),
+    )?;
+    Ok(vec![
+        Setting {
+            turn: 1.0,
+            ..turning
+        },
+        Setting {
+            world: World::in_scene(robot, maker.regime, &uneven)?,
+            ..straight
+        },
     ])
 }
 
