@@ -52,8 +52,8 @@ Examples:
   prone crawl frontier --against heat --seed 1 --out out/heat-frontier
 
 Each ceiling is searched with each seed about one of the cycles of --from. What is found is crawled
-in other settings too: friction 0.4 and 1, time scales 0.8 and 1.7, steps of 1 ms, stiff servos. The
-folder appears when all is done; until then the searches are kept in OUT.checkpoint.json beside it,
+in other settings too: friction 0.4 and 1, time scales 0.8 and 1.7, steps of 1 ms (where it has to
+keep 80 % of its advance and the ceiling to hold), and with stiff servos, for information. The folder appears when all is done; until then the searches are kept in OUT.checkpoint.json beside it,
 and --resume goes on from there to the same bytes.")]
 pub(crate) struct FrontierArgs {
     /// Ceilings, mm

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::CycleProblem;
 use super::form::{CycleForm, CycleFormError};
 use super::price::{
-    CycleObjective, CyclePrice, CyclePricer, CycleRules, PricerError, Setting, Trial, try_out,
+    CycleObjective, CyclePrice, CyclePricer, CycleRules, PricerError, Role, Setting, Trial, try_out,
 };
 use super::settings::{HOLDS, SettingError};
 use crate::optimize::search::{Search, SearchEnd};
@@ -127,11 +127,12 @@ pub fn confirm(settings: &[Setting], cycle: &Cycle, ceiling: f64) -> Confirmed {
             Ok(trial) => {
                 let advance = *first.get_or_insert(trial.advance);
                 let kept = trial.advance / advance;
-                holds &= trial.top.0 < ceiling && kept >= HOLDS && trial.advance > 0.0;
+                let holding = trial.top.0 < ceiling && kept >= HOLDS && trial.advance > 0.0;
+                holds &= setting.role == Role::Beside || holding;
                 row(setting, &trial, kept)
             }
             Err(error) => {
-                holds = false;
+                holds &= setting.role == Role::Beside;
                 refused(setting, error.to_string())
             }
         };

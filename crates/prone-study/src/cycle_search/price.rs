@@ -69,6 +69,8 @@ pub enum Role {
     Keep(f64),
     /// It has to turn to the left by at least that angle a cycle, rad.
     Turn(f64),
+    /// Nothing is asked of it; what it does is reported.
+    Beside,
     /// It may not turn by more than that angle a cycle, rad, and keeps half of the advance.
     Straight(f64),
 }
@@ -295,13 +297,14 @@ impl<'a> CyclePricer<'a> {
         let least = match setting.role {
             Role::Value => rules.advance,
             Role::Keep(share) => share * first_advance.max(rules.advance),
+            Role::Beside => return 0.0,
             Role::Turn(_) | Role::Straight(_) => 0.5 * first_advance.max(rules.advance),
         };
         let mut broken = (1.0 - trial.advance / least).max(0.0);
         broken += match setting.role {
             Role::Turn(angle) => (1.0 - trial.yaw / angle).max(0.0),
             Role::Straight(angle) => over(trial.yaw.abs(), angle),
-            Role::Value | Role::Keep(_) => 0.0,
+            Role::Value | Role::Keep(_) | Role::Beside => 0.0,
         };
         broken += over(trial.top.0, rules.ceiling);
         if rules.body_share < 1.0 && setting.role == Role::Value {

@@ -154,7 +154,8 @@ pub fn for_heat(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
     ])
 }
 
-/// For a confirmation: one thing changed at a time, three cycles each.
+/// For a confirmation: one thing changed at a time, three cycles each. Stiff servos stand beside it:
+/// no search of the advance looks at them.
 ///
 /// # Errors
 /// [`SettingError`].
@@ -170,7 +171,7 @@ pub fn for_confirmation(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingErro
         maker.make("time scale 0.8", maker.regime, FAST, 3, keep)?,
         maker.make("time scale 1.7", maker.regime, SLOW, 3, keep)?,
         maker.make("1 ms steps", fine, 1.0, 3, keep)?,
-        maker.make("stiff servos", stiff, 1.0, 3, keep)?,
+        maker.make("stiff servos", stiff, 1.0, 3, Role::Beside)?,
     ])
 }
 
@@ -185,7 +186,7 @@ pub fn for_heat_confirmation(robot: &LoadedRobot) -> Result<Vec<Setting>, Settin
         let name = format!("pull of {seconds} s");
         settings.push(Setting {
             pull: Some(PhaseDuration::new(seconds)?),
-            ..maker.make(&name, maker.regime, 1.0, 3, Role::Keep(HOLDS))?
+            ..maker.make(&name, maker.regime, 1.0, 3, Role::Beside)?
         });
     }
     Ok(settings)

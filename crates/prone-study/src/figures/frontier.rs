@@ -26,7 +26,7 @@ pub fn figure(frontier: &Frontier) -> Option<Figure> {
     let key = vec![
         KeyEntry::line("best of each ceiling".to_owned(), line(), None),
         KeyEntry::line(
-            "one search, holds in all settings".to_owned(),
+            "one search, holds".to_owned(),
             Stroke::solid(REFERENCE, 0.0),
             Some(marker(Fill::Full)),
         ),
@@ -51,7 +51,7 @@ pub fn figure(frontier: &Frontier) -> Option<Figure> {
             "Crawls searched for the {} under ceilings of several heights, {} mm kept free. \
              Ours, simulated: friction 0.7, the maker's effort and joint limits on, 2.5 ms steps. \
              A search holds where, without touching the ceiling, it keeps 80 % of its advance at \
-             friction 0.4 and 1, 0.8 and 1.7 of its duration, 1 ms steps and with stiff servos.",
+             friction 0.4 and 1, 0.8 and 1.7 times its duration and with 1 ms steps.",
             match frontier.objective {
                 "heat" => "least heat per metre",
                 "speed" => "largest speed",
