@@ -4,7 +4,7 @@ use anyhow::anyhow;
 
 use prone::gait::cycle::{CheckedCycle, Cycle};
 use prone::robot::{JointAngles, Robot};
-use prone::scene::{Obstacle, Scene, SideFriction};
+use prone::scene::{Obstacle, Quantity, Scene, SceneError, SideFriction};
 use prone::steering::TurnTo;
 use prone_files::{scene_file, shipped, text_file};
 use prone_optim::Random;
@@ -224,7 +224,34 @@ fn scene(args: &CrawlRunArgs) -> Result<(Scene, Option<String>), Failure> {
         }
         scene.floor.slope = degrees.to_radians();
     }
+    scene.check().map_err(refuse)?;
     Ok((scene, text))
+}
+
+/// The same error in the words and units of the options.
+fn refuse(error: SceneError) -> Failure {
+    let SceneError::OutOfBounds {
+        quantity,
+        value,
+        lowest,
+        highest,
+        ..
+    } = error
+    else {
+        return Failure::input(error);
+    };
+    let (option, unit) = match quantity {
+        Quantity::Height => ("--ceiling-mm", 1e3),
+        Quantity::Length => ("--length-m", 1.0),
+        Quantity::Slope => ("--slope-deg", 1_f64.to_degrees()),
+        Quantity::LeftFriction => ("--friction-left", 1.0),
+        Quantity::RightFriction => ("--friction-right", 1.0),
+        _ => return Failure::input(error),
+    };
+    // Nine decimals: finer than what anyone types, coarser than rounding.
+    let [value, lowest, highest] =
+        [value, lowest, highest].map(|number| (number * unit * 1e9).round() / 1e9);
+    Failure::Input(anyhow!("{option} {value} is outside {lowest} to {highest}"))
 }
 
 /// A shipped scene by name, or the scene of a file, with the file's text.

@@ -42,12 +42,14 @@ pub(super) fn print(summary: &CrawlSummary, out: &mut impl Write) -> Result<()> 
         "  peak torque {:.2} of rated ({}); demanded of a shoulder {:.2} N·m",
         s.peak_torque_over_rated, s.peak_torque_joint, s.demanded_peak_shoulder_nm
     )?;
-    writeln!(
-        out,
-        "  at the effort limit {:.1} % of the time ({})",
-        s.saturated_share * 100.0,
-        s.saturated_joint
-    )?;
+    match &s.saturated_joint {
+        Some(joint) => writeln!(
+            out,
+            "  at the effort limit {:.1} % of the time ({joint})",
+            s.saturated_share * 100.0
+        )?,
+        None => writeln!(out, "  never at an effort limit")?,
+    }
     if let Some((heat, cost)) = s.heat_per_metre_s.zip(s.cost_of_transport) {
         writeln!(
             out,

@@ -55,8 +55,8 @@ pub struct CrawlSummary {
     /// Share of the time in which a servo demanded more than the effort limit, of the joint where
     /// it is largest.
     pub saturated_share: f64,
-    /// Which joint that is.
-    pub saturated_joint: String,
+    /// Which joint that is, if any servo ever demanded so much.
+    pub saturated_joint: Option<String>,
     /// ∫ Σ (τ / nominal torque)² dt, s.
     pub heat_s: f64,
     /// The same per metre of distance, s/m; nothing where it did not come forward.
@@ -181,7 +181,7 @@ pub fn of(
         peak_torque_joint: robot.joints[peak_joint.0].name.clone(),
         demanded_peak_shoulder_nm: demanded[0].max(demanded[1]),
         saturated_share: saturated,
-        saturated_joint: robot.joints[saturated_joint].name.clone(),
+        saturated_joint: saturated_joint.map(|joint| robot.joints[joint].name.clone()),
         heat_s,
         heat_per_metre_s: metres.map(|metres| heat_s / metres),
         work_j,
@@ -198,13 +198,15 @@ fn stride(checked: &CheckedCycle) -> f64 {
     x(samples.len() - 1) - x(0)
 }
 
-fn longest_saturated(crawl: &Crawl) -> (f64, usize) {
-    let joints = crawl.effort.joints.iter().enumerate();
-    let shares = joints.map(|(index, joint)| (joint.saturated / crawl.effort.seconds, index));
-    shares.fold(
-        (0.0, 0),
-        |most, next| if next.0 > most.0 { next } else { most },
-    )
+fn longest_saturated(crawl: &Crawl) -> (f64, Option<usize>) {
+    let mut most = (0.0, None);
+    for (index, joint) in crawl.effort.joints.iter().enumerate() {
+        let share = joint.saturated / crawl.effort.seconds;
+        if share > most.0 {
+            most = (share, Some(index));
+        }
+    }
+    most
 }
 
 fn contacts(world: &World, touches: &[Touch]) -> Vec<PlateContact> {
