@@ -79,7 +79,8 @@ pub(crate) struct FrontierArgs {
     #[arg(long, value_name = "GAIT")]
     pub(crate) from: Vec<String>,
     /// Search cycles that can be steered: at the largest turn command they turn 6° a cycle, and
-    /// friction of 0.5 on the left and 0.9 on the right turns them by less than half of that
+    /// joints that are off by a degree on friction of 0.5 at one side and 0.9 at the other turn them
+    /// by half of that at most
     #[arg(long)]
     pub(crate) steerable: bool,
     /// Go on from the checkpoint of an interrupted search, if there is one

@@ -3,16 +3,16 @@
 use anyhow::anyhow;
 
 use prone::gait::cycle::{CheckedCycle, Cycle};
-use prone::robot::{JointAngles, Robot};
+use prone::robot::JointAngles;
 use prone::scene::{Obstacle, Quantity, Scene, SceneError, SideFriction};
 use prone::steering::TurnTo;
 use prone_files::{scene_file, shipped, text_file};
-use prone_optim::Random;
 use prone_sim::crawl::{End, Exact, HoldHeading, HoldLine, Pilot, SlopeAware, Straight};
 use prone_sim::imu::SimulatedImu;
 use prone_sim::regime::Servo;
 use prone_sim::{LoadedRobot, Regime, World};
 use prone_study::crawl::{Conditions, GaitSource, PastObstacles};
+use prone_study::cycle_search::settings::offsets;
 
 use crate::Failure;
 use crate::args::{CrawlRunArgs, ServoName};
@@ -286,17 +286,4 @@ fn past(world: &World) -> Result<PastObstacles, Failure> {
         ))
     })?;
     Ok(PastObstacles { x })
-}
-
-/// Of every joint of arms and legs that a pull moves, left then right, an angle drawn evenly from
-/// ±`largest`, rad.
-fn offsets(robot: &Robot, largest: f64, seed: u64) -> JointAngles {
-    let mut random = Random::new(seed);
-    let mut offsets = JointAngles::zero(robot);
-    for side in robot.chain.sides() {
-        for joint in side.commanded_joints() {
-            offsets[joint] = largest * (2.0 * random.uniform() - 1.0);
-        }
-    }
-    offsets
 }

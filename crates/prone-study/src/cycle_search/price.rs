@@ -52,6 +52,8 @@ pub struct Setting {
     pub scale: TimeScale,
     /// How long the pull lasts instead, before the scale.
     pub pull: Option<PhaseDuration>,
+    /// What every commanded angle is off by, rad.
+    pub offsets: Option<JointAngles>,
     /// How many cycles; the last one is measured.
     pub cycles: usize,
     /// Turn command, in shares of the cycle's limit; the first pull is straight all the same.
@@ -364,7 +366,7 @@ pub fn try_out(setting: &Setting, cycle: &Cycle) -> Result<Trial, CrawlError> {
         cycles,
         scale: setting.scale,
         end: End::Cycles(setting.cycles),
-        offsets: None,
+        offsets: setting.offsets.clone(),
         detail: Detail::Sums,
     };
     let limit = cycle

@@ -5,7 +5,9 @@
 
 use prone::gait::cycle::{Cycle, TimeScale, TimeScaleError};
 use prone::gait::{PhaseDuration, PhaseDurationError};
+use prone::robot::{JointAngles, Robot};
 use prone::scene::{Scene, SideFriction};
+use prone_optim::Random;
 use prone_sim::regime::Servo;
 use prone_sim::{LoadedRobot, Regime, World, WorldError};
 
@@ -20,13 +22,17 @@ const FAST: f64 = 0.8;
 const SLOW: f64 = 1.7;
 /// Velocity gain of stiff servos, N·m·s/rad: with the servo law's 20/s, 400 N·m/rad.
 const STIFF: f64 = 20.0;
-/// Friction on the left and on the right of uneven ground.
-const UNEVEN: (f64, f64) = (0.5, 0.9);
+/// Friction on the left and on the right of uneven grounds.
+const UNEVEN: [(f64, f64); 2] = [(0.5, 0.9), (0.9, 0.5)];
+/// How far joints are off there, rad: 1°.
+const OFF: f64 = 0.0175;
+/// Seeds of these angles: some that no test uses.
+const OFF_SEED: u64 = 101;
 /// Turn a cycle at the largest command, rad: 6°.
 const TURN: f64 = 0.105;
-/// Turn a cycle on uneven ground without any command, rad: 2.5°, so that less than half of the
-/// command is spent on keeping straight.
-const DRIFT: f64 = 0.044;
+/// Turn a cycle there without any command, rad: 3°, so that half of the command at most is spent on
+/// keeping straight.
+const DRIFT: f64 = 0.0524;
 /// Share of the advance that a search keeps where it has to hold: a confirmation asks for less.
 const KEEP: f64 = 0.85;
 /// Share that a confirmation asks for.
@@ -67,6 +73,7 @@ impl Maker<'_> {
             scale: TimeScale::new(scale)?,
             pull: None,
             turn: 0.0,
+            offsets: None,
             cycles,
             role,
         })
@@ -109,36 +116,43 @@ pub fn for_advance(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
     ])
 }
 
-/// What a search adds where its cycle has to be steered: at the largest command it turns, and ground
-/// that is more slippery on the left turns it by less than that.
+/// What a search adds where its cycle has to be steered: at the largest command it turns, and joints
+/// that are off on ground that is more slippery on one side turn it by less than that.
 ///
 /// # Errors
 /// [`SettingError`].
 pub fn for_steering(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
     let maker = maker(robot);
-    let mut uneven = Scene::level();
-    uneven.floor.friction = Some(SideFriction {
-        left: UNEVEN.0,
-        right: UNEVEN.1,
-    });
     let turning = maker.make("turning", maker.regime, 1.0, 3, Role::Turn(TURN))?;
-    let straight = maker.make(
-        "uneven friction",
-        maker.regime,
-        1.0,
-        3,
-        Role::Straight(DRIFT),
-    )?;
-    Ok(vec![
-        Setting {
-            turn: 1.0,
-            ..turning
-        },
-        Setting {
+    let mut settings = vec![Setting {
+        turn: 1.0,
+        ..turning
+    }];
+    for (index, (left, right)) in UNEVEN.into_iter().enumerate() {
+        let mut uneven = Scene::level();
+        uneven.floor.friction = Some(SideFriction { left, right });
+        let name = format!("friction {left} and {right}, joints off");
+        let straight = maker.make(&name, maker.regime, 1.0, 3, Role::Straight(DRIFT))?;
+        settings.push(Setting {
             world: World::in_scene(robot, maker.regime, &uneven)?,
+            offsets: Some(offsets(robot.robot(), OFF, OFF_SEED + index as u64)),
             ..straight
-        },
-    ])
+        });
+    }
+    Ok(settings)
+}
+
+/// Of every joint of arms and legs that a pull moves, left then right, an angle drawn evenly from
+/// ±`largest`, rad.
+pub fn offsets(robot: &Robot, largest: f64, seed: u64) -> JointAngles {
+    let mut random = Random::new(seed);
+    let mut offsets = JointAngles::zero(robot);
+    for side in robot.chain.sides() {
+        for joint in side.commanded_joints() {
+            offsets[joint] = largest * (2.0 * random.uniform() - 1.0);
+        }
+    }
+    offsets
 }
 
 /// For a search of the heat: the mean over soft and stiff servos, as nobody knows a robot's.
