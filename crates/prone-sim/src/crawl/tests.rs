@@ -139,3 +139,58 @@ fn a_slope_is_felt_and_only_uphill_the_other_cycle_is_taken() {
         );
     }
 }
+
+/// Where friction is 0.5 at the left and 0.9 at the right: how far off the line it ends, m.
+fn off_the_line(cycle: &str, pilot: &mut dyn Pilot) -> f64 {
+    let robot = nao();
+    let mut scene = prone::scene::Scene::level();
+    scene.floor.friction = Some(prone::scene::SideFriction {
+        left: 0.5,
+        right: 0.9,
+    });
+    let world = World::in_scene(&robot, Regime::LOCOMOTION, &scene).unwrap();
+    let cycles = [shipped::cycle(cycle).unwrap().unwrap()];
+    let plan = CrawlPlan {
+        cycles: &cycles,
+        scale: TimeScale::ONE,
+        end: End::Cycles(25),
+        offsets: None,
+        detail: Detail::Sums,
+    };
+    let crawl = run(&world, &plan, pilot).unwrap();
+    crawl.cycles[24].to.y
+}
+
+#[test]
+fn uneven_ground_is_held_where_open_loop_drifts_away() {
+    let limit = shipped::cycle("low-200").unwrap().unwrap().steering.unwrap().limit;
+    let open = off_the_line("low-200", &mut Straight::default());
+    assert!(open.abs() > 0.5, "open loop {open} m");
+    let held = off_the_line("low-200", &mut HoldLine::new(Exact, limit));
+    assert!(held.abs() < 0.04, "held {held} m");
+}
+
+#[test]
+fn a_heading_is_reached_without_overshoot() {
+    let robot = nao();
+    let world = World::new(&robot, Regime::LOCOMOTION).unwrap();
+    let cycles = [shipped::cycle("low-175").unwrap().unwrap()];
+    let limit = cycles[0].steering.as_ref().unwrap().limit;
+    let plan = CrawlPlan {
+        cycles: &cycles,
+        scale: TimeScale::ONE,
+        end: End::Cycles(16),
+        offsets: None,
+        detail: Detail::Sums,
+    };
+    let heading = 45.0_f64.to_radians();
+    let mut pilot = HoldHeading {
+        source: Exact,
+        to: prone::steering::TurnTo { heading, limit },
+    };
+    let crawl = run(&world, &plan, &mut pilot).unwrap();
+    let yaws = crawl.cycles.iter().map(|cycle| cycle.to.yaw.to_degrees());
+    let (most, last) = yaws.fold((0.0_f64, 0.0), |(most, _), yaw| (most.max(yaw), yaw));
+    assert!(most < 47.0, "{most}°");
+    assert!((last - 45.0).abs() < 2.0, "{last}°");
+}
