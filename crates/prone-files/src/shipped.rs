@@ -52,9 +52,9 @@ const GAITS: [(&str, &str); 8] = [
     ("least-peak", include_str!("../../../gaits/least-peak.toml")),
 ];
 
-/// Names and texts of the cycles that ship with the program: those with the published poses, then
-/// the lower ones.
-const CYCLES: [(&str, &str); 4] = [
+/// Names and texts of the cycles that ship with the program: those with the published postures, then
+/// those that keep low and can be steered, then those that come farthest under a ceiling.
+const CYCLES: [(&str, &str); 8] = [
     (
         "thesis-nominal",
         include_str!("../../../gaits/thesis-nominal.toml"),
@@ -63,8 +63,12 @@ const CYCLES: [(&str, &str); 4] = [
         "thesis-optimal",
         include_str!("../../../gaits/thesis-optimal.toml"),
     ),
+    ("low-200", include_str!("../../../gaits/low-200.toml")),
     ("low-175", include_str!("../../../gaits/low-175.toml")),
     ("low-165", include_str!("../../../gaits/low-165.toml")),
+    ("far-200", include_str!("../../../gaits/far-200.toml")),
+    ("far-183", include_str!("../../../gaits/far-183.toml")),
+    ("far-165", include_str!("../../../gaits/far-165.toml")),
 ];
 
 /// The names that [`cycle`] knows.

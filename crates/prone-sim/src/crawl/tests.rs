@@ -29,8 +29,12 @@ fn regression_shipped_cycles_advance_and_repeat_themselves() {
     for (name, advance, top) in [
         ("thesis-nominal", 75.0, 225.0),
         ("thesis-optimal", 92.0, 225.0),
+        ("low-200", 148.0, 195.0),
         ("low-175", 134.0, 175.0),
         ("low-165", 113.0, 164.0),
+        ("far-200", 228.0, 185.0),
+        ("far-183", 212.0, 181.0),
+        ("far-165", 168.0, 162.0),
     ] {
         let crawl = crawl(&world, name, 3, 0.0);
         let third = &crawl.cycles[2];
@@ -163,7 +167,12 @@ fn off_the_line(cycle: &str, pilot: &mut dyn Pilot) -> f64 {
 
 #[test]
 fn uneven_ground_is_held_where_open_loop_drifts_away() {
-    let limit = shipped::cycle("low-200").unwrap().unwrap().steering.unwrap().limit;
+    let limit = shipped::cycle("low-200")
+        .unwrap()
+        .unwrap()
+        .steering
+        .unwrap()
+        .limit;
     let open = off_the_line("low-200", &mut Straight::default());
     assert!(open.abs() > 0.5, "open loop {open} m");
     let held = off_the_line("low-200", &mut HoldLine::new(Exact, limit));
