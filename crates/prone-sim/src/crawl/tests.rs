@@ -203,3 +203,33 @@ fn a_heading_is_reached_without_overshoot() {
     assert!(most < 47.0, "{most}°");
     assert!((last - 45.0).abs() < 2.0, "{last}°");
 }
+
+#[test]
+fn no_limb_goes_through_another_in_a_shipped_cycle() {
+    let robot = nao();
+    let world = World::new(&robot, Regime::LOCOMOTION).unwrap();
+    let mut collision = crate::self_collision::SelfCollision::new(&world).unwrap();
+    for name in shipped::cycle_names() {
+        let cycle = shipped::cycle(name).unwrap().unwrap();
+        let limit = cycle
+            .steering
+            .as_ref()
+            .map_or(0.0, |steering| steering.limit);
+        for turn in [0.0, limit] {
+            let stops = world.stops();
+            let checked =
+                CheckedCycle::plan(world.robot(), stops, &cycle, turn, TimeScale::ONE).unwrap();
+            let path = checked
+                .recovery_from(checked.compression().clone())
+                .unwrap();
+            let seconds = checked.recovery_seconds();
+            let pull = (0..=50).map(|k| checked.pull().at(f64::from(k) / 50.0));
+            let back = (0..=100).map(|k| path.at(seconds * f64::from(k) / 100.0));
+            let postures: Vec<JointAngles> = pull.chain(back).collect();
+            let scan = collision.scan(&postures, 0.0).unwrap();
+            let near = &scan.closest.closest;
+            // Shapes of the model are rounder than the robot: a millimetre is not a collision.
+            assert!(near.distance_m > -1e-3, "{name}, turn {turn:.2}: {near:?}");
+        }
+    }
+}
