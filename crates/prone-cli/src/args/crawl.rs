@@ -36,7 +36,7 @@ pub(crate) struct CrawlRunArgs {
     /// A cycle that ships with prone (thesis-nominal, low-175, …) or a cycle file
     #[arg(long, value_name = "GAIT")]
     pub(crate) gait: String,
-    /// Crawl this cycle in place of --gait where the robot feels that it goes uphill, more than 2°
+    /// Crawl this cycle in place of --gait where the robot feels that it goes uphill, more than 1.5°
     /// by its inertial unit, whose noise --seed draws
     #[arg(long, value_name = "GAIT", requires = "seed")]
     pub(crate) uphill: Option<String>,

@@ -23,7 +23,7 @@ const CYCLES: usize = 9;
 
 /// Slope above which the cycle for going uphill is taken, degrees: well above what the inertial
 /// unit is off by, well below what the flat cycles slip on.
-const UPHILL_DEG: f64 = 2.0;
+const UPHILL_DEG: f64 = 1.5;
 
 /// How many cycles a robot has to get past its obstacles.
 const MOST_CYCLES: usize = 60;

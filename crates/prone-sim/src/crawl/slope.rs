@@ -9,6 +9,9 @@ use crate::imu::SimulatedImu;
 /// Part of the pull whose attitude counts, phases: before it, the body is still being lifted.
 const CARRIED: (f64, f64) = (0.3, 0.95);
 
+/// Share of the slope at which the uphill cycle is taken below which it is left again.
+const LEAVE: f64 = 0.8;
+
 /// Crawls one cycle on the flat and another uphill. The slope is what the inertial unit tells of
 /// the trunk's pitch, less the pitch that the measured joints would give it on a level floor
 /// ([`prone::robot::Robot::level_pitch`]: the planned chain knows neither sag nor the thickness of
@@ -28,13 +31,13 @@ pub struct SlopeAware<P> {
 }
 
 impl<P: Pilot> SlopeAware<P> {
-    /// A pilot that takes cycle 1 above `up`, rad, and cycle 0 again below half of it.
+    /// A pilot that takes cycle 1 above `up`, rad, and cycle 0 again somewhat below it.
     pub fn new(steering: P, imu: SimulatedImu, up: f64) -> Self {
         Self {
             steering,
             imu,
             filter: None,
-            thresholds: (up, up / 2.0),
+            thresholds: (up, LEAVE * up),
             uphill: false,
             sum: 0.0,
             count: 0.0,
