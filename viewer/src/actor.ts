@@ -35,8 +35,8 @@ export class Actor {
   constructor(run: Run) {
     this.run = run;
     this.posture = new Posture(run);
-    this.robot = new RobotView(run.model, "solid");
-    this.ghostRobot = new RobotView(run.model, "ghost");
+    this.robot = new RobotView(run.model, this.posture, "solid");
+    this.ghostRobot = new RobotView(run.model, this.posture, "ghost");
     this.ghost = this.ghostRobot.group;
     this.scenery = new Scenery(run.model);
     this.forces = new Forces(run);
@@ -53,12 +53,11 @@ export class Actor {
     for (const part of [scenery, robot, ghostRobot, ruler, forces, mass, chain]) part.paint(theme);
   }
 
-  /** Moves everything to an instant. */
-  show(time: number, shown: Shown): void {
+  /** Moves everything to an instant; `level` says whether one looks along the floor. */
+  show(time: number, shown: Shown, level: boolean): void {
     const { posture } = this;
+    this.scenery.setLevel(level);
     posture.set(time);
-    this.robot.pose(posture);
-    this.ghostRobot.pose(posture);
     this.forces.group.visible = shown.forces;
     if (shown.forces) this.forces.show(this.run.nearest(time));
     this.chain.group.visible = shown.chain;

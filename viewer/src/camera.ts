@@ -23,7 +23,7 @@ export class Eye {
   view: ViewName = "follow";
   private azimuth = -1.12;
   private elevation = 0.36;
-  private distance = 1.6;
+  private distance = 1.35;
   private zoom = 1;
   private readonly shift = new Vector3();
   private readonly fixed = new Vector3(0, 0, MIDDLE);
@@ -97,7 +97,7 @@ export class Eye {
   private around(target: Vector3, aspect: number): PerspectiveCamera {
     const camera = this.perspective;
     // A narrow picture shows the whole robot too.
-    const distance = this.distance * Math.max(1, 1.45 / aspect);
+    const distance = this.distance * Math.max(1, 1.5 / aspect);
     const level = Math.cos(this.elevation) * distance;
     camera.position.set(
       target.x + level * Math.cos(this.azimuth),

@@ -14,8 +14,8 @@ import type { Contact, Run } from "./data";
 import { CHAIN, type Posture } from "./kinematics";
 import type { Theme } from "./theme";
 
-/** Length of an arrow, m/N: the robot's weight, 52 N, is 130 mm. */
-const METRES_PER_NEWTON = 0.0025;
+/** Length of an arrow, m/N: the robot's weight, 52 N, is 208 mm. */
+const METRES_PER_NEWTON = 0.004;
 
 /** Arrows of less are not drawn, N. */
 const LEAST_FORCE = 0.5;

@@ -153,7 +153,7 @@ class Plot {
           { ...axis, size: 24, gap: 2, values: (_, ticks) => ticks.map((tick) => `${tick} s`) },
           { ...axis, size: 40, gap: 3 },
         ],
-        padding: [6, 8, 0, 0],
+        padding: [6, 14, 0, 0],
         series,
         // Only now, and after each change of size, it is known where an instant is.
         hooks: { draw: [() => this.show(clock.time)] },

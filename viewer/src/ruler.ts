@@ -82,8 +82,10 @@ export class Ruler {
     for (const { text, place, kind } of this.numbers) {
       this.labels.push({ text, kind, place: place.clone().add(this.group.position) });
     }
-    this.mark(this.ceiling, this.ceilingAt(root), "ceiling", "above");
-    this.mark(this.top, top, "top", "below");
+    const ceiling = this.ceilingAt(root);
+    const higher = top > ceiling;
+    this.mark(this.ceiling, ceiling, "ceiling", higher ? "below" : "above");
+    this.mark(this.top, top, "top", higher ? "above" : "below");
   }
 
   private mark(mark: LineSegments, z: number, word: string, kind: Label["kind"]): void {

@@ -1,5 +1,5 @@
 // What stands around the robot: the floor with its grid, plates, panels, ramps, rough ground, the
-// marker, and the light.
+// marker.
 
 import {
   BoxGeometry,
@@ -7,22 +7,19 @@ import {
   BufferGeometry,
   CircleGeometry,
   Color,
-  DirectionalLight,
   DoubleSide,
   EdgesGeometry,
   Group,
-  HemisphereLight,
   LineBasicMaterial,
   LineSegments,
   Mesh,
   MeshBasicMaterial,
-  MeshLambertMaterial,
   PlaneGeometry,
   ShaderMaterial,
 } from "three";
 import type { Model, RoughModel } from "./data";
 import { quaternion } from "./kinematics";
-import { SUN } from "./robot";
+import { litSurface, tint } from "./light";
 import type { Theme } from "./theme";
 
 /** What one sees through, so that the robot below is seen. */
@@ -31,27 +28,28 @@ const GLASS = ["plate", "panel"];
 /** Half an edge of the floor that is drawn, m. */
 const REACH = 12;
 
+/** How far behind the robot what is below the floor is drawn, and how deep, m. */
+const CUT_BEHIND = 4;
+const CUT_DEPTH = 2;
+
 export class Scenery {
   readonly group = new Group();
   private readonly floor: ShaderMaterial;
-  private readonly glass = new MeshLambertMaterial({
-    transparent: true,
-    opacity: 0.2,
-    depthWrite: false,
-    side: DoubleSide,
-  });
-  private readonly solid = new MeshLambertMaterial();
+  private readonly glass = litSurface({ opacity: 0.2 });
+  private readonly solid = litSurface({ opacity: 1 });
   private readonly edge = new LineBasicMaterial();
-  private readonly ground = new MeshLambertMaterial({ flatShading: true, side: DoubleSide });
+  
+
+  /** What is below the floor, for a look along it, from which the floor itself is a line. */
+  private readonly cut = new Mesh(new PlaneGeometry(2 * REACH, CUT_DEPTH), new MeshBasicMaterial());
 
   constructor(model: Model) {
-    const sun = new DirectionalLight(0xffffff, 2.1);
-    sun.position.copy(SUN);
-    this.group.add(sun, new HemisphereLight(0xffffff, 0x9aa3aa, 1.5));
     this.floor = floorMaterial();
     const plane = new Mesh(new PlaneGeometry(2 * REACH, 2 * REACH), this.floor);
     plane.renderOrder = -1;
-    this.group.add(plane);
+    this.cut.rotation.x = Math.PI / 2;
+    this.cut.position.set(0, CUT_BEHIND, -CUT_DEPTH / 2);
+    this.group.add(plane, this.cut);
     for (const obstacle of model.obstacles) {
       const [x, y, z] = obstacle.half_edges;
       const box = new BoxGeometry(2 * x, 2 * y, 2 * z);
@@ -63,7 +61,7 @@ export class Scenery {
       mesh.quaternion.copy(quaternion(obstacle.quaternion));
       this.group.add(mesh);
     }
-    if (model.rough) this.group.add(new Mesh(roughGround(model.rough), this.ground));
+    if (model.rough) this.group.add(new Mesh(roughGround(model.rough), this.solid));
     if (model.marker) {
       const { position, radius, facing } = model.marker;
       const disc = new Mesh(
@@ -77,7 +75,13 @@ export class Scenery {
     }
   }
 
+  /** Whether one looks along the floor. */
+  setLevel(level: boolean): void {
+    this.cut.visible = level;
+  }
+
   paint(theme: Theme): void {
+    this.cut.material.color.set(theme.earth);
     const colours: [string, number][] = [
       ["ground", theme.floor],
       ["far", theme.background],
@@ -87,10 +91,9 @@ export class Scenery {
     for (const [name, colour] of colours) {
       (this.floor.uniforms[name]?.value as Color).set(colour);
     }
-    this.glass.color.set(theme.glass);
+    tint(this.glass, theme.glass);
     this.edge.color.set(theme.heavyLine);
-    this.solid.color.set(theme.solid);
-    this.ground.color.set(theme.solid);
+    tint(this.solid, theme.solid);
   }
 }
 
@@ -116,18 +119,16 @@ function floorMaterial(): ShaderMaterial {
       uniform vec3 ground, far, light, heavy;
       varying vec2 place;
       varying float away;
-      float lines(float step, float width) {
-        vec2 at = place / step;
-        vec2 size = fwidth(at);
+      float lines(vec2 at, vec2 size, float width) {
         vec2 near = abs(fract(at - 0.5) - 0.5) / size;
         vec2 line = clamp(width - near + 0.5, 0.0, 1.0) * clamp(1.0 - 2.5 * size, 0.0, 1.0);
         return max(line.x, line.y);
       }
       void main() {
-        vec3 colour = mix(ground, light, lines(0.1, 0.5));
-        colour = mix(colour, heavy, lines(0.5, 0.8));
+        vec2 size = fwidth(place);
+        vec3 colour = mix(ground, light, lines(place * 10.0, size * 10.0, 0.5));
+        colour = mix(colour, heavy, lines(place * 2.0, size * 2.0, 0.8));
         gl_FragColor = vec4(mix(colour, far, smoothstep(3.0, 9.0, away)), 1.0);
-        #include <colorspace_fragment>
       }`,
   });
 }

@@ -1,6 +1,6 @@
 // The picture: one run, two side by side, or the second as a ghost in the scene of the first.
 
-import { type Camera, Vector3, WebGLRenderer } from "three";
+import { type Camera, LinearSRGBColorSpace, Vector3, WebGLRenderer } from "three";
 import { Actor, type Shown } from "./actor";
 import { Eye, steer } from "./camera";
 import type { Run } from "./data";
@@ -10,13 +10,17 @@ import { theme } from "./theme";
 /** Side by side left and right where the picture is wider than this many heights. */
 const WIDE = 1.3;
 
+/** A lower picture, pixels, has no numbers on its ruler. */
+const ROOM_FOR_NUMBERS = 240;
+
 export class Stage {
   readonly eye = new Eye();
   readonly actors: Actor[];
   readonly shown: Shown = { chain: false, forces: true, mass: true, ruler: true };
   ghosted = false;
-  /** How many pictures were drawn. */
+  /** How many pictures were drawn, and when the first was, ms since the page was asked for. */
   frames = 0;
+  firstPicture = NaN;
   readonly canvas = document.createElement("canvas");
   private readonly renderer: WebGLRenderer;
   private readonly words: HTMLElement;
@@ -32,7 +36,13 @@ export class Stage {
   /** Throws where there is no WebGL. */
   constructor(host: HTMLElement, runs: Run[]) {
     this.host = host;
-    this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: true, stencil: true });
+    this.renderer = new WebGLRenderer({
+      canvas: this.canvas,
+      // Where the processor draws, smooth edges cost half of the pictures per second.
+      antialias: !drawnByProcessor(),
+      stencil: true,
+    });
+    this.renderer.outputColorSpace = LinearSRGBColorSpace;
     this.renderer.setScissorTest(true);
     this.renderer.autoClear = false;
     this.actors = runs.map((run) => new Actor(run));
@@ -86,7 +96,7 @@ export class Stage {
   render(): void {
     this.waiting = false;
     this.used = 0;
-    for (const actor of this.actors) actor.show(this.time, this.shown);
+    for (const actor of this.actors) actor.show(this.time, this.shown, this.eye.view === "side");
     this.parts().forEach(({ actor, left, top, width, height }, index) => {
       const camera = this.eye.camera(actor.posture.root, width / height);
       const bottom = this.height - top - height;
@@ -96,12 +106,14 @@ export class Stage {
       this.renderer.render(actor.scene, camera);
       for (const label of actor.ruler.labels) this.word(label, camera, { left, top, width, height });
       const name = this.names[index];
-      if (name) name.style.transform = `translate(${left}px, ${top}px)`;
+      if (name) name.style.transform = corner(left + width, top);
     });
     const ghost = this.names[1];
-    if (ghost && this.ghosted) ghost.style.transform = "translate(0, 22px)";
+    ghost?.classList.toggle("ghost", this.ghosted);
+    if (ghost && this.ghosted) ghost.style.transform = corner(this.width, 20);
     for (const rest of this.pool.slice(this.used)) rest.hidden = true;
     this.frames += 1;
+    if (this.frames === 1) this.firstPicture = performance.now();
   }
 
   /** Where the bodies of a run are in the picture, pixels of the page's units from its corner. */
@@ -154,6 +166,7 @@ export class Stage {
     part: { left: number; top: number; width: number; height: number },
   ): void {
     place.copy(at).project(camera);
+    if (kind === "number" && part.height < ROOM_FOR_NUMBERS && this.eye.view !== "side") return;
     if (Math.abs(place.x) > 1 || Math.abs(place.y) > 1 || place.z > 1) return;
     let word = this.pool[this.used];
     if (!word) {
@@ -173,3 +186,17 @@ export class Stage {
 }
 
 const place = new Vector3();
+
+/** Moves a name, which stands at the left, to where its right end is at x. */
+function corner(x: number, y: number): string {
+  return `translate(calc(${x}px - 100%), ${y}px)`;
+}
+
+/** Whether there is no graphics card. */
+function drawnByProcessor(): boolean {
+  const context = document.createElement("canvas").getContext("webgl");
+  const info = context?.getExtension("WEBGL_debug_renderer_info");
+  const name: unknown = info && context?.getParameter(info.UNMASKED_RENDERER_WEBGL);
+  context?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software/i.test(String(name));
+}

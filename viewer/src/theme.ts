@@ -4,6 +4,7 @@
 export interface Theme {
   background: number;
   floor: number;
+  earth: number;
   line: number;
   heavyLine: number;
   shadow: number;
@@ -22,6 +23,7 @@ export interface Theme {
 const LIGHT: Theme = {
   background: 0xe9edf0,
   floor: 0xe1e5e8,
+  earth: 0xd0d6db,
   line: 0xb4bcc3,
   heavyLine: 0x858e96,
   shadow: 0x3a444c,
@@ -40,6 +42,7 @@ const LIGHT: Theme = {
 const DARK: Theme = {
   background: 0x14191d,
   floor: 0x1b2126,
+  earth: 0x262e34,
   line: 0x38424a,
   heavyLine: 0x5c6872,
   shadow: 0x000000,
