@@ -118,6 +118,10 @@ class Replay {
       m: () => this.toggle("mass"),
       r: () => this.toggle("ruler"),
       g: () => this.runs.length > 1 && this.setGhosted(!this.stage?.ghosted),
+      w: () => {
+        this.plots.whole = !this.plots.whole;
+        this.plots.show();
+      },
       "?": () => this.page.help.showModal(),
     };
     const action = actions[event.key];

@@ -16,6 +16,7 @@ export const KEYS: [string, string][] = [
   ["m", "centre of mass and its projection along gravity"],
   ["r", "ruler and ceiling"],
   ["g", "two runs: side by side, or the second as a ghost"],
+  ["w", "curves of a long run: 12 s or the whole"],
   ["drag", "turn; two fingers, or with shift, move"],
   ["wheel, pinch", "nearer, farther"],
   ["?", "this help"],

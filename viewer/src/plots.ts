@@ -54,7 +54,12 @@ function kinds(side: Side): Kind[] {
   ];
 }
 
+/** A longer run is shown in pages of this length, s. */
+const PAGE = 12;
+
 export class Plots {
+  /** The whole run instead of a page of it. */
+  whole = false;
   private readonly host: HTMLElement;
   private readonly runs: Run[];
   private readonly clock: Clock;
@@ -77,7 +82,7 @@ export class Plots {
     const wanted = kinds(this.side).filter(({ curves }) =>
       curves.some(({ of }) => this.runs.some((run) => of(run))),
     );
-    this.plots = wanted.map((kind) => new Plot(this.host, kind, this.runs, this.clock));
+    this.plots = wanted.map((kind) => new Plot(this.host, kind, this.runs, this.clock, this.window()));
     for (const plot of this.plots) {
       plot.onTitle(() => {
         this.side = this.side === "left" ? "right" : "left";
@@ -88,7 +93,14 @@ export class Plots {
   }
 
   show(): void {
-    for (const plot of this.plots) plot.show(this.clock.time);
+    for (const plot of this.plots) plot.show(this.clock.time, this.window());
+  }
+
+  private window(): [number, number] {
+    const { begin, end, time } = this.clock;
+    if (this.whole || end - begin <= PAGE * 1.5) return [begin, end];
+    const page = Math.floor((Math.min(time, end - 1e-3) - begin) / PAGE);
+    return [begin + page * PAGE, begin + (page + 1) * PAGE];
   }
 
   /** Where the cursors are, seconds: what a reader sees, read back from the page. */
@@ -107,7 +119,11 @@ class Plot {
   private readonly digits: number;
   private readonly sided: boolean;
 
-  constructor(host: HTMLElement, kind: Kind, runs: Run[], clock: Clock) {
+  private window: [number, number];
+  private range: [number, number] = [Infinity, -Infinity];
+
+  constructor(host: HTMLElement, kind: Kind, runs: Run[], clock: Clock, window: [number, number]) {
+    this.window = window;
     this.digits = kind.digits;
     this.sided = kind.title.includes(", ");
     this.box.className = "plot";
@@ -133,10 +149,17 @@ class Plot {
         table.push(Array.from(data, (value) => (Number.isNaN(value) ? null : value)));
         const dash = number > 0 ? [5, 3] : curve === CEILING ? [2, 4] : [];
         series.push({ label: curve.label, stroke, width: 1.5, dash, spanGaps: runs.length > 1, points: { show: false } });
+        for (const value of data) {
+          // Not a number is neither.
+          if (value < this.range[0]) this.range[0] = value;
+          if (value > this.range[1]) this.range[1] = value;
+        }
         this.values.push({ out: chip(legend, curve.label, stroke, number), run, data });
       });
       tables.push(table as uPlot.AlignedData);
     });
+    const room = 0.06 * (this.range[1] - this.range[0]) || 1;
+    this.range = [this.range[0] - room, this.range[1] + room];
     const axis = {
       stroke: colours.ink,
       grid: { stroke: colours.faint, width: 1 },
@@ -148,7 +171,11 @@ class Plot {
         ...this.size(),
         legend: { show: false },
         cursor: { show: false },
-        scales: { x: { time: false, range: [clock.begin, clock.end] } },
+        scales: {
+          x: { time: false, range: () => this.window },
+          // The same on every page.
+          y: { range: () => this.range },
+        },
         axes: [
           { ...axis, size: 24, gap: 2, values: (_, ticks) => ticks.map((tick) => `${tick} s`) },
           { ...axis, size: 40, gap: 3 },
@@ -156,7 +183,7 @@ class Plot {
         padding: [6, 14, 0, 0],
         series,
         // Only now, and after each change of size, it is known where an instant is.
-        hooks: { draw: [() => this.show(clock.time)] },
+        hooks: { draw: [() => this.point(clock.time)] },
       },
       tables.length > 1 ? uPlot.join(tables) : (tables[0] ?? [[]]),
       this.area,
@@ -166,15 +193,23 @@ class Plot {
     this.scrub(clock);
   }
 
-  show(time: number): void {
-    // The first drawing may come before the constructor is done.
-    if (!this.chart) return;
-    this.cursor.style.transform = `translateX(${this.chart.valToPos(time, "x").toFixed(2)}px)`;
+  show(time: number, window: [number, number]): void {
+    if (window[0] !== this.window[0] || window[1] !== this.window[1]) {
+      this.window = window;
+      this.chart.setScale("x", { min: window[0], max: window[1] });
+    }
+    this.point(time);
     for (const { out, run, data } of this.values) {
       const value = data[run.nearest(time)] ?? NaN;
       const text = Number.isNaN(value) || time > run.end + 1e-6 ? "–" : value.toFixed(this.digits);
       if (out.textContent !== text) out.textContent = text.replace("-", "−");
     }
+  }
+
+  private point(time: number): void {
+    // The first drawing may come before the constructor is done.
+    if (!this.chart) return;
+    this.cursor.style.transform = `translateX(${this.chart.valToPos(time, "x").toFixed(2)}px)`;
   }
 
   cursorTime(): number {
