@@ -204,9 +204,9 @@ export class Run {
   }
 
   private unpackContacts(packed: PackedContacts): void {
-    const counts = bytes(packed.counts);
-    const bodies = bytes(packed.bodies);
-    const others = bytes(packed.others);
+    const counts = wholes(packed.counts);
+    const bodies = wholes(packed.bodies);
+    const others = wholes(packed.others);
     const get = (name: keyof PackedContacts["channels"]) =>
       unpack(packed.channels[name], bodies.length);
     const [x, y, z] = [get("x_mm"), get("y_mm"), get("z_mm")];
@@ -252,6 +252,12 @@ function unpack(packed: Packed, rows: number): Float32Array {
     }
   }
   return values;
+}
+
+/** Whole numbers, 16 bits each. */
+function wholes(base64: string): Uint16Array {
+  const view = new DataView(bytes(base64).buffer);
+  return Uint16Array.from({ length: view.byteLength / 2 }, (_, i) => view.getUint16(2 * i, true));
 }
 
 function bytes(base64: string): Uint8Array {

@@ -48,7 +48,9 @@ class Replay {
   }
 
   choose(view: ViewName): void {
-    this.stage?.eye.choose(view, this.stage.actors[0]?.posture.root.clone() ?? ORIGIN);
+    const posture = this.stage?.actors[0]?.posture;
+    posture?.set(this.clock.time);
+    this.stage?.eye.choose(view, posture?.root ?? ORIGIN);
     this.stage?.ask();
     this.marks();
     this.remember();

@@ -133,6 +133,9 @@ fn a_slope_is_felt_and_only_uphill_the_other_cycle_is_taken() {
         }
         let uphill = if degrees > 4.0 { "low-175" } else { "low-165" };
         // The first cycle is begun before anything is felt.
-        assert!(gaits[1..].iter().all(|gait| gait == uphill), "{degrees}°: {gaits:?}");
+        assert!(
+            gaits[1..].iter().all(|gait| gait == uphill),
+            "{degrees}°: {gaits:?}"
+        );
     }
 }
