@@ -79,8 +79,10 @@ class Replay {
     page.slider.min = `${clock.begin}`;
     page.slider.max = `${clock.end}`;
     page.slider.addEventListener("input", () => {
+      // To pause puts the slider where the clock still is.
+      const wanted = page.slider.valueAsNumber;
       clock.pause();
-      clock.seek(page.slider.valueAsNumber);
+      clock.seek(wanted);
     });
     page.play.addEventListener("click", () => clock.toggle());
     page.speed.addEventListener("change", () => {
