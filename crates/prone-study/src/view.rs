@@ -24,7 +24,7 @@ const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 
                       img-src data:; base-uri 'none'; form-action 'none'";
 
 #[derive(Serialize)]
-struct Runs<'a> {
+struct Content<'a> {
     format: &'static str,
     version: u32,
     runs: &'a [&'a Run],
@@ -35,7 +35,7 @@ struct Runs<'a> {
 /// # Errors
 /// [`serde_json::Error`] where a run cannot be written as JSON.
 pub fn page(runs: &[&Run]) -> Result<String, serde_json::Error> {
-    let data = serde_json::to_string(&Runs {
+    let data = serde_json::to_string(&Content {
         format: "prone-replay",
         version: FORMAT_VERSION,
         runs,

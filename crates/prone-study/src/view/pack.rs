@@ -88,7 +88,7 @@ pub(super) fn counts(values: &[u16]) -> String {
 
 fn constant(values: &[f64]) -> Option<Packed> {
     let (&first, rest) = values.split_first()?;
-    let same = first.is_finite() && rest.iter().all(|&value| value == first);
+    let same = first.is_finite() && rest.iter().all(|value| value.total_cmp(&first).is_eq());
     same.then_some(Packed::Constant { constant: first })
 }
 
