@@ -5,6 +5,7 @@ pub(crate) mod optimize;
 pub(crate) mod passage;
 pub(crate) mod pricing;
 mod torque_map;
+mod view;
 
 use std::path::PathBuf;
 
@@ -14,6 +15,7 @@ use prone::gait::PhaseDuration;
 
 pub(crate) use crawl::{CrawlCommand, CrawlRunArgs, ServoName};
 pub(crate) use torque_map::{BuildArgs, CompareArgs, PlotArgs, SourceArg, TorqueMapCommand};
+pub(crate) use view::ViewArgs;
 
 /// Makes humanoid robots crawl where they cannot walk.
 #[derive(Debug, Parser)]
@@ -33,6 +35,7 @@ Examples:
   prone crawl run --gait low-175 --ceiling-mm 178 --length-m 1.5 --until-past
                                           crawl under a plate
   prone crawl under --ceiling-mm 180      whether the robot gets under it, how, and how fast
+  prone view out/run                      replay a recorded run in the browser
   prone gait show nominal                 a gait's joints, limits and heights
   prone robot check robots/nao            validate a robot and print its chain")]
 pub(crate) struct Args {
@@ -60,6 +63,8 @@ pub(crate) enum Command {
     /// Build, compare and draw maps of static joint torques
     #[command(subcommand)]
     TorqueMap(TorqueMapCommand),
+    /// Make a page that replays a recorded run
+    View(ViewArgs),
     /// Print a completion script for a shell
     #[command(
         after_help = "Example:\n  prone completions bash > ~/.local/share/bash-completion/completions/prone"

@@ -20,6 +20,7 @@ mod reproduce;
 mod robot;
 mod table_file;
 mod torque_map;
+mod view;
 
 use std::io::Write as _;
 use std::process::ExitCode;
@@ -39,6 +40,7 @@ fn main() -> ExitCode {
         Command::Gait(GaitCommand::Show(args)) => gait::show(&args),
         Command::Robot(RobotCommand::Check(args)) => robot::check(&args),
         Command::TorqueMap(command) => torque_map::run(&command),
+        Command::View(args) => view::run(&args),
         Command::Completions { shell } => completions(shell),
     };
     match done {

@@ -23,3 +23,4 @@ pub mod table_crawl;
 mod tables;
 pub mod torque_map;
 pub mod torque_study;
+pub mod view;

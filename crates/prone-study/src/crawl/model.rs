@@ -37,6 +37,8 @@ pub(super) fn of(world: &World) -> Value {
                         "range": [joint.range.lower, joint.range.upper],
                     })
                 }),
+                "mass": body.mass,
+                "centre_of_mass": body.centre_of_mass.metres().to_array(),
                 "contact_group": body.contact_group.name(),
                 "head": body.is_head,
             })

@@ -1,0 +1,93 @@
+//! The replay: recorded runs in one HTML page that needs nothing else.
+//!
+//! The page holds the script that `viewer/` builds and, as JSON, the runs ([`record::read`]). The
+//! script moves the bodies by the recorded joint angles; no physics is computed here or there.
+//! `viewer/README.md` describes the JSON.
+
+mod pack;
+pub mod record;
+mod table;
+
+use maud::{DOCTYPE, PreEscaped, html};
+use serde::Serialize;
+
+use record::Run;
+
+/// The bundle of `viewer/`, which `npm ci && npm run build` there reproduces.
+const VIEWER: &str = include_str!("../../../viewer/dist/viewer.js");
+
+/// What of the JSON changed last; the script refuses another.
+const FORMAT_VERSION: u32 = 1;
+
+/// Nothing leaves the page, and nothing comes to it.
+const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; \
+                      img-src data:; base-uri 'none'; form-action 'none'";
+
+#[derive(Serialize)]
+struct Content<'a> {
+    format: &'static str,
+    version: u32,
+    runs: &'a [&'a Run],
+}
+
+/// The page of one run, or of several to compare.
+///
+/// # Errors
+/// [`serde_json::Error`] where a run cannot be written as JSON.
+pub fn page(runs: &[&Run]) -> Result<String, serde_json::Error> {
+    let data = serde_json::to_string(&Content {
+        format: "prone-replay",
+        version: FORMAT_VERSION,
+        runs,
+    })?;
+    let titles: Vec<&str> = runs.iter().map(|run| run.title()).collect();
+    let title = format!("{} – prone", titles.join(" | "));
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                // Without it a browser asks the server for one.
+                link rel="icon" href="data:,";
+                title { (title) }
+            }
+            body {
+                div #app {}
+                noscript { "The replay needs JavaScript; the record folder holds the run as tables." }
+                script type="application/json" id="prone-runs" { (PreEscaped(in_script(&data))) }
+                script { (PreEscaped(VIEWER)) }
+            }
+        }
+    };
+    Ok(page.into_string())
+}
+
+/// JSON in which nothing ends the element that it stands in.
+fn in_script(json: &str) -> String {
+    json.replace('<', "\\u003c")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_text_ends_its_script() {
+        let text = in_script(r#"{"title":"</script><!--"}"#);
+        assert!(!text.contains('<'));
+        let back: serde_json::Value = serde_json::from_str(&text).unwrap();
+        assert_eq!(back["title"], "</script><!--");
+        let lower = VIEWER.to_lowercase();
+        assert!(!lower.contains("</script") && !lower.contains("<!--"));
+    }
+
+    #[test]
+    fn the_bundle_names_whose_work_it_holds() {
+        let (head, _) = VIEWER.split_once("*/").unwrap();
+        for said in ["three ", "uplot ", "MIT License", "Copyright"] {
+            assert!(head.contains(said), "{said}");
+        }
+    }
+}
