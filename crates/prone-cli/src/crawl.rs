@@ -85,7 +85,10 @@ fn simulate(plan: &Plan, args: &CrawlRunArgs) -> Result<Crawl, Failure> {
 pub(crate) fn failure(error: CrawlError) -> Failure {
     match error {
         CrawlError::Stopped => Failure::Stopped,
-        CrawlError::Cycle(_) | CrawlError::Mapping(_) => Failure::input(error),
+        CrawlError::Cycle(_)
+        | CrawlError::Mapping(_)
+        | CrawlError::Limbs { .. }
+        | CrawlError::SelfCollision(_) => Failure::input(error),
         CrawlError::NoCycle { .. } | CrawlError::Simulation { .. } => Failure::work(error),
     }
 }

@@ -23,6 +23,7 @@ use prone::mapping::{Mapping, MappingError};
 use prone::robot::JointAngles;
 
 use crate::pull::SETTLE;
+use crate::self_collision::{SelfCollision, SelfCollisionError};
 use crate::simulation::{Placement, Simulation, SimulationError, Snapshot};
 use crate::world::World;
 use measure::Meter;
@@ -124,6 +125,24 @@ pub enum CrawlError {
         /// What happened.
         source: SimulationError,
     },
+    /// Two limbs would go through one another, which the simulation does not keep them from.
+    #[error(
+        "cycle {cycle}: {} and {} would be {depth_mm:.1} mm in one another, {place}",
+        shapes.0, shapes.1
+    )]
+    Limbs {
+        /// The cycle's name.
+        cycle: String,
+        /// Names of the two shapes.
+        shapes: (String, String),
+        /// How deep, mm.
+        depth_mm: f64,
+        /// In the pull or the recovery, and when.
+        place: String,
+    },
+    /// The limbs cannot be compared.
+    #[error(transparent)]
+    SelfCollision(#[from] SelfCollisionError),
     /// The user stopped it.
     #[error("stopped")]
     Stopped,
@@ -204,6 +223,46 @@ pub fn run(
         engine_steps,
     })
 }
+
+/// Looks whether limbs go through one another in a cycle's plan.
+///
+/// # Errors
+/// [`CrawlError::Limbs`] with the deepest place; a millimetre is not deep, as a model's shapes are
+/// rounder than its robot.
+pub fn check_limbs(world: &World, checked: &CheckedCycle) -> Result<(), CrawlError> {
+    let times = |seconds: f64| {
+        let count = (seconds / LIMB_STEP).ceil();
+        (0..)
+            .map(f64::from)
+            .take_while(move |k| *k <= count)
+            .map(move |k| seconds * k / count)
+    };
+    let pull = checked.pull().duration().seconds();
+    let path = checked.recovery_from(checked.compression().clone())?;
+    let mut postures: Vec<JointAngles> = times(pull).map(|time| checked.pull_at(time)).collect();
+    let in_pull = postures.len();
+    let back: Vec<f64> = times(checked.recovery_seconds()).collect();
+    postures.extend(back.iter().map(|&time| path.at(time)));
+    let near = SelfCollision::new(world)?.scan(&postures, 0.0)?.closest;
+    if near.closest.distance_m >= -DEEP {
+        return Ok(());
+    }
+    let place = match near.index.checked_sub(in_pull) {
+        None => format!("{:.2} s into the pull", near.index as f64 * LIMB_STEP),
+        Some(index) => format!("{:.2} s into the recovery", back[index]),
+    };
+    Err(CrawlError::Limbs {
+        cycle: checked.name().to_owned(),
+        shapes: near.closest.shapes,
+        depth_mm: -near.closest.distance_m * 1e3,
+        place,
+    })
+}
+
+/// Time between two postures that are looked at for limbs in one another, s.
+const LIMB_STEP: f64 = 0.02;
+/// How deep limbs may be in one another, m.
+const DEEP: f64 = 1e-3;
 
 /// A cycle ready to be commanded.
 struct Planned {

@@ -7,7 +7,9 @@ use prone::robot::JointAngles;
 use prone::scene::{Obstacle, Quantity, Scene, SceneError, SideFriction};
 use prone::steering::TurnTo;
 use prone_files::{scene_file, shipped, text_file};
-use prone_sim::crawl::{End, Exact, HoldHeading, HoldLine, Pilot, SlopeAware, Straight};
+use prone_sim::crawl::{
+    End, Exact, HoldHeading, HoldLine, Pilot, SlopeAware, Straight, check_limbs,
+};
 use prone_sim::imu::SimulatedImu;
 use prone_sim::regime::Servo;
 use prone_sim::{LoadedRobot, Regime, World};
@@ -65,8 +67,10 @@ impl Plan {
         for turn in steering.extremes() {
             let stops = world.stops();
             for gait in [Some(&gait), uphill.as_ref()].into_iter().flatten() {
-                CheckedCycle::plan(world.robot(), stops, &gait.cycle, turn, args.time_scale)
+                let scale = args.time_scale;
+                let checked = CheckedCycle::plan(world.robot(), stops, &gait.cycle, turn, scale)
                     .map_err(Failure::input)?;
+                check_limbs(&world, &checked).map_err(Failure::input)?;
             }
         }
         let imu = match (&uphill, args.seed) {

@@ -208,7 +208,9 @@ fn a_heading_is_reached_without_overshoot() {
 fn no_limb_goes_through_another_in_a_shipped_cycle() {
     let robot = nao();
     let world = World::new(&robot, Regime::LOCOMOTION).unwrap();
-    let mut collision = crate::self_collision::SelfCollision::new(&world).unwrap();
+    let plan = |cycle: &Cycle, turn: f64| {
+        CheckedCycle::plan(world.robot(), world.stops(), cycle, turn, TimeScale::ONE).unwrap()
+    };
     for name in shipped::cycle_names() {
         let cycle = shipped::cycle(name).unwrap().unwrap();
         let limit = cycle
@@ -216,20 +218,13 @@ fn no_limb_goes_through_another_in_a_shipped_cycle() {
             .as_ref()
             .map_or(0.0, |steering| steering.limit);
         for turn in [0.0, limit] {
-            let stops = world.stops();
-            let checked =
-                CheckedCycle::plan(world.robot(), stops, &cycle, turn, TimeScale::ONE).unwrap();
-            let path = checked
-                .recovery_from(checked.compression().clone())
-                .unwrap();
-            let seconds = checked.recovery_seconds();
-            let pull = (0..=50).map(|k| checked.pull().at(f64::from(k) / 50.0));
-            let back = (0..=100).map(|k| path.at(seconds * f64::from(k) / 100.0));
-            let postures: Vec<JointAngles> = pull.chain(back).collect();
-            let scan = collision.scan(&postures, 0.0).unwrap();
-            let near = &scan.closest.closest;
-            // Shapes of the model are rounder than the robot: a millimetre is not a collision.
-            assert!(near.distance_m > -1e-3, "{name}, turn {turn:.2}: {near:?}");
+            check_limbs(&world, &plan(&cycle, turn)).unwrap();
         }
     }
+    let mut crossed = shipped::cycle("low-175").unwrap().unwrap();
+    let roll = &mut crossed.recovery[0].joints;
+    roll.insert("LHipRoll".to_owned(), -0.3);
+    let error = check_limbs(&world, &plan(&crossed, 0.0)).unwrap_err();
+    assert!(matches!(error, CrawlError::Limbs { .. }), "{error}");
+    assert!(error.to_string().contains("s into the recovery"), "{error}");
 }
