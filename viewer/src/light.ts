@@ -94,8 +94,8 @@ export function shadowOfBodies(bodies: Matrix4[]): ShaderMaterial {
       uniform vec3 colour;
       void main() { gl_FragColor = vec4(colour, 0.26); }`,
     transparent: true,
+    // Seen from above, what faces the sun before it is flat faces the eye after: half is enough.
     depthWrite: false,
-    side: DoubleSide,
   });
 }
 

@@ -144,7 +144,6 @@ class Plot {
       kind.curves.forEach((curve, index) => {
         const data = curve.of(run);
         if (!data) return;
-        if (curve === CEILING && number > 0) return;
         const stroke = curve === CEILING ? colours.ink : (colours.series[index] ?? colours.ink);
         table.push(Array.from(data, (value) => (Number.isNaN(value) ? null : value)));
         const dash = number > 0 ? [5, 3] : curve === CEILING ? [2, 4] : [];

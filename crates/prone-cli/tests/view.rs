@@ -20,7 +20,7 @@ fn prone(arguments: &[&str]) -> Output {
 fn record(folder: &Path, gait: &str, scene: &str) -> String {
     let folder = folder.to_str().unwrap().to_owned();
     let run = [
-        "crawl", "run", "--gait", gait, "--scene", scene, "--cycles", "2",
+        "crawl", "run", "--gait", gait, "--scene", scene, "--cycles", "1",
     ];
     let done = prone(&[&run[..], &["--record", &folder]].concat());
     let message = String::from_utf8_lossy(&done.stderr);
