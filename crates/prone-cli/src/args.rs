@@ -1,6 +1,7 @@
 //! What may be typed.
 
 mod crawl;
+mod export;
 pub(crate) mod optimize;
 pub(crate) mod passage;
 pub(crate) mod pricing;
@@ -13,6 +14,7 @@ use clap::{Parser, Subcommand};
 use prone::gait::PhaseDuration;
 
 pub(crate) use crawl::{CrawlCommand, CrawlRunArgs, ServoName};
+pub(crate) use export::{ExportArgs, Format, ViewName};
 pub(crate) use torque_map::{BuildArgs, CompareArgs, PlotArgs, SourceArg, TorqueMapCommand};
 
 /// Makes humanoid robots crawl where they cannot walk.
@@ -33,6 +35,7 @@ Examples:
   prone crawl run --gait low-175 --ceiling-mm 178 --length-m 1.5 --until-past
                                           crawl under a plate
   prone crawl under --ceiling-mm 180      whether the robot gets under it, how, and how fast
+  prone export out/low --format mcap      a recorded crawl for other tools
   prone gait show nominal                 a gait's joints, limits and heights
   prone robot check robots/nao            validate a robot and print its chain")]
 pub(crate) struct Args {
@@ -47,6 +50,8 @@ pub(crate) enum Command {
     /// Crawl whole cycles in simulation, and ask what a robot gets under
     #[command(subcommand)]
     Crawl(CrawlCommand),
+    /// Write a recorded run for other tools: tables, ROS 2 logs, URDF, key frames, video
+    Export(ExportArgs),
     /// Search a better gait, and simulate what is found beside the published ones
     Optimize(optimize::OptimizeArgs),
     /// Price one gait
