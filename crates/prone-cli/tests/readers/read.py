@@ -137,8 +137,8 @@ def picture(path):
             "milliseconds": sum(duration or 0 for _, duration in frames),
             "loop": image.info.get("loop"),
             "corner": frames[0][0].getpixel((2, 2)),
-            "colours": len(set(frames[0][0].getdata())),
-            "changed": sum(a != b for a, b in zip(frames[0][0].getdata(), frames[-1][0].getdata())),
+            "colours": len(frames[0][0].getcolors(1 << 24)),
+            "changed": sum(a != b for a, b in zip(frames[0][0].tobytes(), frames[-1][0].tobytes())),
         }
 
 
