@@ -1,6 +1,7 @@
 //! What may be typed.
 
 mod crawl;
+mod export;
 pub(crate) mod optimize;
 pub(crate) mod passage;
 pub(crate) mod pricing;
@@ -14,6 +15,7 @@ use clap::{Parser, Subcommand};
 use prone::gait::PhaseDuration;
 
 pub(crate) use crawl::{CrawlCommand, CrawlRunArgs, ServoName};
+pub(crate) use export::{ExportArgs, Format, ViewName};
 pub(crate) use torque_map::{BuildArgs, CompareArgs, PlotArgs, SourceArg, TorqueMapCommand};
 pub(crate) use view::ViewArgs;
 
@@ -36,6 +38,7 @@ Examples:
                                           crawl under a plate
   prone crawl under --ceiling-mm 180      whether the robot gets under it, how, and how fast
   prone view out/run                      replay a recorded run in the browser
+  prone export out/low --format mcap      a recorded crawl for other tools
   prone gait show nominal                 a gait's joints, limits and heights
   prone robot check robots/nao            validate a robot and print its chain")]
 pub(crate) struct Args {
@@ -50,6 +53,8 @@ pub(crate) enum Command {
     /// Crawl whole cycles in simulation, and ask what a robot gets under
     #[command(subcommand)]
     Crawl(CrawlCommand),
+    /// Write a recorded run for other tools: tables, ROS 2 logs, URDF, key frames, video
+    Export(ExportArgs),
     /// Search a better gait, and simulate what is found beside the published ones
     Optimize(optimize::OptimizeArgs),
     /// Price one gait

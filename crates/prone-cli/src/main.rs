@@ -1,13 +1,15 @@
 //! The command line of prone: arguments become a plan, a plan becomes calls.
 //!
 //! Results go to standard output, everything else to standard error. Exit codes: 0 done, 1 the
-//! work failed, 2 wrong input (nothing is written), 130 stopped by the user.
+//! work failed, 2 wrong input (nothing is written, but by `export` what is readable of a record that
+//! was cut off), 130 stopped by the user.
 
 mod args;
 mod checkpoint;
 mod cost;
 mod crawl;
 mod cycle_search;
+mod export;
 mod failure;
 mod gait;
 mod interrupt;
@@ -35,6 +37,7 @@ fn main() -> ExitCode {
     let done = match args.command {
         Command::Reproduce(args) => reproduce::run(&args),
         Command::Crawl(command) => crawl::run(&command),
+        Command::Export(args) => export::run(&args),
         Command::Optimize(args) => optimize::run(&args),
         Command::Cost(args) => cost::run(&args),
         Command::Gait(GaitCommand::Show(args)) => gait::show(&args),

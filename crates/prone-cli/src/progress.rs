@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use prone_study::export::film;
 use prone_study::optimize::search::Search;
 use prone_study::torque_map::build;
 use prone_study::torque_study::Observer;
@@ -115,6 +116,34 @@ impl build::Observer for RowProgress {
 
     fn row_done(&self) {
         self.bar.inc(1);
+    }
+
+    fn stop(&self) -> bool {
+        interrupt::requested()
+    }
+}
+
+/// Progress of a film.
+pub(crate) struct FilmProgress {
+    bar: ProgressBar,
+}
+
+impl FilmProgress {
+    /// Shows progress in pictures.
+    pub(crate) fn new(pictures: usize) -> Result<Self, Failure> {
+        let bar = bar(pictures, "filming")?;
+        Ok(Self { bar })
+    }
+
+    /// All work is done.
+    pub(crate) fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+impl film::Observer for FilmProgress {
+    fn pictures_done(&self, count: usize) {
+        self.bar.inc(count as u64);
     }
 
     fn stop(&self) -> bool {

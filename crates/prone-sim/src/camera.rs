@@ -14,6 +14,7 @@
 //!
 //! Nothing is random and nothing depends on a clock: the same state gives the same bytes.
 
+mod eye;
 mod glass;
 mod light;
 mod outline;
@@ -47,6 +48,8 @@ pub struct Camera {
     pub target: DVec3,
     /// The angle between the lower and the upper edge of the picture, rad.
     pub vertical_fov: f64,
+    /// What points up in the picture, in the ground frame.
+    pub up: DVec3,
 }
 
 impl Camera {
@@ -85,21 +88,19 @@ impl Camera {
             position: target + Self::DISTANCE * direction.normalize(),
             target,
             vertical_fov,
+            up: DVec3::Z,
         }
     }
 
     /// The unit vectors ahead, to the right and up in the picture.
     ///
-    /// A camera that looks straight up or down has the robot's forward at the top of its picture;
+    /// A camera that looks straight along its `up` has the robot's forward at the top of its picture;
     /// a camera that stands on its target looks forward.
     fn axes(&self) -> [DVec3; 3] {
         let ahead = (self.target - self.position)
             .try_normalize()
             .unwrap_or(DVec3::X);
-        let right = ahead
-            .cross(DVec3::Z)
-            .try_normalize()
-            .unwrap_or(DVec3::NEG_Y);
+        let right = ahead.cross(self.up).try_normalize().unwrap_or(DVec3::NEG_Y);
         [ahead, right, right.cross(ahead)]
     }
 }

@@ -23,7 +23,7 @@ mod simulation;
 mod world;
 
 pub use load::{LoadError, LoadedRobot, ModelProblem, RobotFiles};
-pub use model_view::ShapeView;
+pub use model_view::{InertiaView, ShapeView};
 pub use regime::Regime;
 pub use simulation::{
     ContactForce, ObstacleContact, Placement, Simulation, SimulationError, Snapshot, StepMeans,

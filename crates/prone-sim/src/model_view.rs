@@ -28,7 +28,30 @@ pub struct ShapeView {
     pub collides: bool,
 }
 
+/// How hard a body is to turn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct InertiaView {
+    /// About the axes of `rotation`, through the centre of mass, kg·m².
+    pub principal: DVec3,
+    /// From the principal axes to the body's own.
+    pub rotation: DQuat,
+}
+
 impl World {
+    /// Inertia of each of the robot's bodies, in their order.
+    pub fn inertia_views(&self) -> Vec<InertiaView> {
+        let moments = self.model.body_inertia().iter();
+        let turns = self.model.body_iquat().iter();
+        moments
+            .zip(turns)
+            .skip(1) // the world
+            .map(|(&principal, &[w, x, y, z])| InertiaView {
+                principal: DVec3::from_array(principal),
+                rotation: DQuat::from_xyzw(x, y, z, w),
+            })
+            .collect()
+    }
+
     /// The robot's shapes, in the order of the engine's model. A kind that the engine has and this
     /// list has not, such as a mesh, is left out.
     pub fn shape_views(&self) -> Vec<ShapeView> {

@@ -305,6 +305,17 @@ fn root_pose(qpos: &[f64]) -> Transform<Ground, Root> {
 }
 
 impl Snapshot {
+    /// A position that was recorded.
+    pub fn new(ground_from_root: Transform<Ground, Root>, angles: &JointAngles) -> Self {
+        let (at, turn) = (
+            ground_from_root.origin().metres(),
+            ground_from_root.rotation(),
+        );
+        let mut position = vec![at.x, at.y, at.z, turn.w, turn.x, turn.y, turn.z];
+        position.extend_from_slice(angles.as_slice());
+        Self(position)
+    }
+
     fn parts(&self) -> (Transform<Ground, Root>, JointAngles) {
         let angles = JointAngles::from_vec(self.0[FREE_JOINT..].to_vec());
         (root_pose(&self.0), angles)

@@ -12,6 +12,7 @@ const AHEAD: Camera = Camera {
     position: DVec3::new(-2.0, 0.0, 0.5),
     target: DVec3::new(0.0, 0.0, 0.5),
     vertical_fov: 0.6,
+    up: DVec3::Z,
 };
 const RADIUS: f64 = 0.05;
 
@@ -174,6 +175,7 @@ fn looking_straight_down_has_forward_at_the_top() {
         position: DVec3::Z,
         target: DVec3::ZERO,
         vertical_fov: 0.5,
+        up: DVec3::Z,
     };
     assert_eq!(camera.axes(), [DVec3::NEG_Z, DVec3::NEG_Y, DVec3::X]);
 }

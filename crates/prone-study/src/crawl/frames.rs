@@ -63,6 +63,7 @@ pub(crate) fn sequence(
         position: target + distance * direction,
         target,
         vertical_fov: 2.0 * (HEIGHT / 2.0 / distance).atan(),
+        up: DVec3::Z,
     };
     #[expect(
         clippy::cast_possible_truncation,

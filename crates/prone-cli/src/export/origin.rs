@@ -1,0 +1,50 @@
+//! Robot and scene of a record.
+
+use std::path::Path;
+
+use anyhow::anyhow;
+
+use prone::scene::Scene;
+use prone_files::{scene_file, shipped};
+use prone_sim::{LoadedRobot, Regime, RobotFiles, World};
+use prone_study::recorded::Recorded;
+
+use crate::Failure;
+use crate::args::ExportArgs;
+
+/// The robot that crawled: of --robot, the one that ships, or that of the folder in the record. Its
+/// files must be those of the record.
+pub(super) fn robot(args: &ExportArgs, record: &Recorded) -> Result<LoadedRobot, Failure> {
+    let recorded = &record.run.robot;
+    let shipped = RobotFiles::shipped(&shipped::NAO);
+    let files = match &args.robot {
+        Some(folder) => RobotFiles::read(folder).map_err(Failure::input)?,
+        None if shipped.hash() == recorded.sha256 => shipped,
+        None => RobotFiles::read(Path::new(&recorded.folder)).map_err(|error| {
+            Failure::Input(anyhow!(
+                "{error}; --robot says where the robot of this run is"
+            ))
+        })?,
+    };
+    if files.hash() != recorded.sha256 {
+        return Err(Failure::Input(anyhow!(
+            "the files of {} are not those of the run's robot ({}): it was changed since, or --robot \
+             names another one",
+            files.folder,
+            recorded.name
+        )));
+    }
+    LoadedRobot::load(files).map_err(Failure::input)
+}
+
+/// Robot and scene, to be looked at.
+pub(super) fn world(robot: &LoadedRobot, record: &Recorded) -> Result<World, Failure> {
+    let run = &record.run;
+    let scene = match (&run.options.scene_text, record.plate) {
+        (Some(text), _) => scene_file::parse(&run.scene.name, text).map_err(Failure::input)?,
+        (None, Some((height, length))) => Scene::under_plate(height, length),
+        (None, None) => Scene::level(),
+    };
+    // Pictures do not depend on the regime.
+    World::in_scene(robot, Regime::LOCOMOTION, &scene).map_err(Failure::input)
+}

@@ -1,0 +1,633 @@
+//! `prone export`: each format is read back by a program of somebody else.
+//!
+//! Those programs are Python packages (`readers/requirements.txt`) of the Python that
+//! `PRONE_READERS_PYTHON` names, else `python3`. A test whose package is missing says that it
+//! skipped; with `PRONE_REQUIRE_READERS=1` it fails.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::OnceLock;
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+/// Of the NAO that ships.
+const JOINTS: usize = 24;
+
+/// The reader's way to say that a package is missing.
+const NO_PACKAGE: i32 = 77;
+
+fn prone(arguments: &[&str], path: Option<&str>) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_prone"));
+    if let Some(path) = path {
+        command.env("PATH", path);
+    }
+    command.args(arguments).output().unwrap()
+}
+
+/// A short crawl, recorded once for all tests.
+fn record() -> &'static Path {
+    static RECORD: OnceLock<(TempDir, PathBuf)> = OnceLock::new();
+    let (_, folder) = RECORD.get_or_init(|| {
+        let home = tempfile::tempdir().unwrap();
+        let folder = home.path().join("short");
+        let at = folder.to_str().unwrap();
+        let crawl = [
+            "crawl", "run", "--gait", "low-175", "--cycles", "1", "--record", at,
+        ];
+        let done = prone(
+            &[&crawl[..], &["--ceiling-mm", "200", "--length-m", "1"]].concat(),
+            None,
+        );
+        assert!(
+            done.status.success(),
+            "{}",
+            String::from_utf8_lossy(&done.stderr)
+        );
+        (home, folder)
+    });
+    folder
+}
+
+/// Exports, and gives the file.
+fn exported(home: &TempDir, format: &str, more: &[&str]) -> PathBuf {
+    let file = home.path().join(format!("short.{format}"));
+    let (run, out) = (record().to_str().unwrap(), file.to_str().unwrap());
+    let arguments = [&["export", run, "--format", format, "--out", out], more].concat();
+    let done = prone(&arguments, None);
+    let (stdout, stderr) = (text(&done.stdout), text(&done.stderr));
+    assert!(done.status.success(), "{stderr}");
+    assert!(stdout.starts_with(out), "{stdout}");
+    file
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// What another program finds in a file; `None` where that program is not installed.
+fn read(kind: &str, file: &Path) -> Option<Value> {
+    let python = std::env::var("PRONE_READERS_PYTHON").unwrap_or_else(|_| "python3".to_owned());
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/readers/read.py");
+    let done = Command::new(&python)
+        .args([script, kind])
+        .arg(file)
+        .output();
+    let missing = match done {
+        Ok(done) if done.status.code() == Some(NO_PACKAGE) => text(&done.stderr),
+        Ok(done) => {
+            assert!(done.status.success(), "{}", text(&done.stderr));
+            let stdout = text(&done.stdout);
+            let found = stdout.lines().find_map(|line| line.strip_prefix("FOUND "));
+            return Some(serde_json::from_str(found.unwrap()).unwrap());
+        }
+        Err(error) => error.to_string(),
+    };
+    let required = std::env::var("PRONE_REQUIRE_READERS").is_ok_and(|value| value == "1");
+    assert!(!required, "{python} does not read {kind}: {missing}");
+    eprintln!("skipped: {python} does not read {kind}: {missing}");
+    None
+}
+
+/// `rows.csv` by column, as texts.
+fn rows() -> BTreeMap<String, Vec<String>> {
+    let text = fs::read_to_string(record().join("rows.csv")).unwrap();
+    let mut lines = text.lines().map(|line| line.split(',').map(str::to_owned));
+    let header: Vec<String> = lines.next().unwrap().collect();
+    let lines: Vec<Vec<String>> = lines.map(Iterator::collect).collect();
+    let column = |index: usize| lines.iter().map(|line| line[index].clone()).collect();
+    let names = header.into_iter().enumerate();
+    names.map(|(index, name)| (name, column(index))).collect()
+}
+
+fn number(text: &str) -> f64 {
+    text.parse().unwrap()
+}
+
+fn near(found: &Value, expected: f64, tolerance: f64) {
+    let found = found
+        .as_f64()
+        .unwrap_or_else(|| panic!("{found} is not a number"));
+    assert!(
+        (found - expected).abs() <= tolerance,
+        "{found} is not {expected}"
+    );
+}
+
+/// Of a JSON list of texts.
+fn place(names: &Value, name: &str) -> usize {
+    let names = names.as_array().unwrap();
+    names.iter().position(|it| it == name).unwrap()
+}
+
+#[test]
+fn a_table_has_a_line_per_instant_and_joint() {
+    let home = tempfile::tempdir().unwrap();
+    let table = fs::read_to_string(exported(&home, "csv", &[])).unwrap();
+    let rows = rows();
+    let joints = rows
+        .keys()
+        .filter(|name| name.ends_with("_cmd_rad"))
+        .count();
+    assert_eq!(table.lines().count(), 1 + joints * rows["time_s"].len());
+    let mut lines = table.lines();
+    assert_eq!(
+        lines.next(),
+        Some("time_s,joint,command_rad,position_rad,velocity_rad_s,effort_nm")
+    );
+    let first: Vec<&str> = lines.next().unwrap().split(',').collect();
+    assert_eq!(first[..2], ["0.0200", "HeadYaw"]);
+    assert_eq!(first[3], rows["HeadYaw_rad"][0]);
+    let last: Vec<&str> = lines.last().unwrap().split(',').collect();
+    assert_eq!(last[1], "RWristYaw");
+    assert_eq!(last[5], *rows["RWristYaw_nm"].last().unwrap());
+}
+
+#[test]
+fn numpy_reads_the_arrays() {
+    let home = tempfile::tempdir().unwrap();
+    let file = exported(&home, "npz", &[]);
+    let Some(found) = read("npz", &file) else {
+        return;
+    };
+    let rows = rows();
+    let (instants, joints) = (rows["time_s"].len(), JOINTS);
+    assert_eq!(found["time_s"]["shape"], serde_json::json!([instants]));
+    assert_eq!(found["joints"]["kind"], "U");
+    for name in ["command_rad", "position_rad", "velocity_rad_s", "effort_nm"] {
+        assert_eq!(found[name]["kind"], "f", "{name}");
+        assert_eq!(
+            found[name]["shape"],
+            serde_json::json!([instants, joints]),
+            "{name}"
+        );
+    }
+    let knee = place(&found["joints"]["whole"], "LKneePitch");
+    for (array, column) in [
+        ("position_rad", "LKneePitch_rad"),
+        ("effort_nm", "LKneePitch_nm"),
+    ] {
+        // The very numbers of the record.
+        near(
+            &found[array]["first"][0][knee],
+            number(&rows[column][0]),
+            0.0,
+        );
+        near(
+            &found[array]["last"][0][knee],
+            number(rows[column].last().unwrap()),
+            0.0,
+        );
+    }
+    near(
+        &found["root_position_m"]["last"][0][0],
+        number(rows["x_mm"].last().unwrap()) / 1e3,
+        1e-12,
+    );
+    near(
+        &found["ground_n"]["first"][0][2],
+        number(&rows["torso_n"][0]),
+        0.0,
+    );
+    let contacts = fs::read_to_string(record().join("contacts.csv")).unwrap();
+    let last: Vec<&str> = contacts.lines().last().unwrap().split(',').collect();
+    let count = contacts.lines().count() - 1;
+    assert_eq!(
+        found["contact_force_n"]["shape"],
+        serde_json::json!([count, 3])
+    );
+    assert_eq!(found["contact_body"]["last"][0], last[1]);
+    near(
+        &found["contact_force_n"]["last"][0][2],
+        number(last[8]),
+        0.0,
+    );
+}
+
+#[test]
+fn mcap_reads_the_log() {
+    let home = tempfile::tempdir().unwrap();
+    let file = exported(&home, "mcap", &[]);
+    let Some(found) = read("mcap", &file) else {
+        return;
+    };
+    assert_eq!(found["profile"], "ros2");
+    let rows = rows();
+    let instants = rows["time_s"].len();
+    let topics = found["topics"].as_object().unwrap();
+    let kinds = [
+        ("/joint_states", "sensor_msgs/msg/JointState"),
+        ("/joint_commands", "sensor_msgs/msg/JointState"),
+        ("/tf", "tf2_msgs/msg/TFMessage"),
+        ("/contacts/torso/floor", "geometry_msgs/msg/WrenchStamped"),
+    ];
+    for (topic, schema) in kinds {
+        let topic = &topics[topic];
+        assert_eq!(topic["schema"], schema);
+        assert_eq!(topic["schema_encoding"], "ros2msg");
+        assert_eq!(topic["encoding"], "cdr");
+        assert_eq!(topic["count"], instants);
+        assert_eq!(topic["in_order"], true);
+        assert_eq!(topic["begin_ns"], 20_000_000);
+        near(
+            &topic["end_ns"],
+            number(rows["time_s"].last().unwrap()) * 1e9,
+            1.0,
+        );
+    }
+    assert_eq!(found["messages"], topics.len() * instants);
+    let (first, last) = (
+        &topics["/joint_states"]["first"],
+        &topics["/joint_states"]["last"],
+    );
+    assert_eq!(first["header"]["stamp"]["nanosec"], 20_000_000);
+    let knee = place(&first["name"], "LKneePitch");
+    near(
+        &first["position"][knee],
+        number(&rows["LKneePitch_rad"][0]),
+        0.0,
+    );
+    near(
+        &last["position"][knee],
+        number(rows["LKneePitch_rad"].last().unwrap()),
+        0.0,
+    );
+    near(
+        &last["effort"][knee],
+        number(rows["LKneePitch_nm"].last().unwrap()),
+        0.0,
+    );
+    assert_eq!(first["velocity"].as_array().unwrap().len(), JOINTS);
+    let root = &topics["/tf"]["last"]["transforms"][0];
+    assert_eq!(root["header"]["frame_id"], "world");
+    assert_eq!(root["child_frame_id"], "torso");
+    near(
+        &root["transform"]["translation"]["z"],
+        number(rows["z_mm"].last().unwrap()) / 1e3,
+        1e-12,
+    );
+    // 1e-6: seven decimals of a unit quaternion.
+    near(
+        &root["transform"]["rotation"]["w"],
+        number(rows["qw"].last().unwrap()),
+        1e-6,
+    );
+    // What presses on the trunk, summed by hand; turning into the trunk's frame keeps its length.
+    let contacts = fs::read_to_string(record().join("contacts.csv")).unwrap();
+    let mut sum = [0.0; 3];
+    for line in contacts
+        .lines()
+        .filter(|line| line.starts_with("0.0200,torso,floor"))
+    {
+        let cells: Vec<&str> = line.split(',').collect();
+        for axis in 0..3 {
+            sum[axis] += number(cells[6 + axis]);
+        }
+    }
+    let force = &topics["/contacts/torso/floor"]["first"]["wrench"]["force"];
+    let parts = ["x", "y", "z"].map(|axis| force[axis].as_f64().unwrap());
+    let length = |parts: [f64; 3]| parts.iter().map(|part| part * part).sum::<f64>().sqrt();
+    assert!(length(sum) > 1.0, "{sum:?}");
+    assert!(
+        (length(parts) - length(sum)).abs() < 1e-6,
+        "{parts:?} is not {sum:?} long"
+    );
+}
+
+#[test]
+fn bullet_reads_the_robot() {
+    let home = tempfile::tempdir().unwrap();
+    let file = exported(&home, "urdf", &[]);
+    let Some(found) = read("urdf", &file) else {
+        return;
+    };
+    let model = fs::read_to_string(record().join("model.json")).unwrap();
+    let model: Value = serde_json::from_str(&model).unwrap();
+    // 1e-4: masses have six decimals in the file.
+    near(&found["mass"], model["mass_kg"].as_f64().unwrap(), 1e-4);
+    assert_eq!(found["root"], "torso");
+    let joints = found["joints"].as_array().unwrap();
+    let bodies = model["bodies"].as_array().unwrap();
+    assert_eq!(joints.len(), bodies.len() - 1);
+    let angles: BTreeMap<&str, f64> = joints
+        .iter()
+        .map(|joint| {
+            (
+                joint["name"].as_str().unwrap(),
+                joint["angle"].as_f64().unwrap(),
+            )
+        })
+        .collect();
+    let shipped =
+        prone_sim::LoadedRobot::load(prone_sim::RobotFiles::shipped(&prone_files::shipped::NAO));
+    let shipped = shipped.unwrap();
+    let robot = shipped.robot();
+    let posture: Vec<f64> = robot
+        .joints
+        .iter()
+        .map(|joint| angles[joint.name.as_str()])
+        .collect();
+    let root = prone::frames::Transform::<prone::frames::Ground, prone::frames::Root>::translation(
+        glam::DVec3::ZERO,
+    );
+    let poses = robot.forward_kinematics(root, &prone::robot::JointAngles::from_vec(posture));
+    for joint in joints {
+        let known = robot.joint(joint["name"].as_str().unwrap()).unwrap();
+        let known = &robot.joints[known.0];
+        let body = &robot.bodies[known.body.0];
+        assert_eq!(joint["link"], *body.name);
+        assert_eq!(joint["kind"], 0, "a hinge");
+        near(&joint["lower"], known.range.lower, 1e-9);
+        near(&joint["upper"], known.range.upper, 1e-9);
+        near(&joint["effort"], known.effort_limit, 1e-9);
+        near(&joint["speed"], known.speed_limit, 1e-9);
+        let place = poses.of(known.body).origin().metres();
+        for axis in 0..3 {
+            // Bullet turns in single precision.
+            near(&joint["place"][axis], place[axis], 2e-6);
+        }
+    }
+    let shapes = model["shapes"].as_array().unwrap();
+    let parts = |wanted: &dyn Fn(&Value) -> bool| -> usize {
+        let chosen = shapes.iter().filter(|shape| wanted(shape));
+        chosen
+            .map(|shape| if shape["type"] == "capsule" { 3 } else { 1 })
+            .sum()
+    };
+    assert_eq!(
+        found["collisions"],
+        parts(&|shape| shape["collides"] == true)
+    );
+    assert_eq!(
+        found["visuals"],
+        parts(&|shape| shape["group"].as_i64().unwrap() <= 2)
+    );
+}
+
+#[test]
+fn key_frames_are_the_commands() {
+    let home = tempfile::tempdir().unwrap();
+    let file = exported(&home, "keyframes", &[]);
+    let found: Value = serde_json::from_slice(&fs::read(file).unwrap()).unwrap();
+    let rows = rows();
+    let frames = found["frames"].as_array().unwrap();
+    let joints = found["joints"].as_array().unwrap();
+    near(
+        &found["period_s"],
+        number(rows["time_s"].last().unwrap()),
+        1e-9,
+    );
+    assert_eq!(
+        frames[0]["angles_rad"],
+        frames.last().unwrap()["angles_rad"]
+    );
+    let labels: Vec<&str> = frames
+        .iter()
+        .filter_map(|frame| frame["label"].as_str())
+        .collect();
+    assert_eq!(
+        labels,
+        [
+            "extension",
+            "compression",
+            "fold",
+            "lift",
+            "reach",
+            "extension"
+        ]
+    );
+    // Straight lines between them lead past what was commanded at each row.
+    let tolerance = found["tolerance_rad"].as_f64().unwrap();
+    for (row, time) in rows["time_s"].iter().map(|time| number(time)).enumerate() {
+        let after = frames
+            .iter()
+            .position(|frame| frame["time_s"].as_f64().unwrap() >= time - 1e-9);
+        let after = after.unwrap().max(1);
+        let (from, to) = (&frames[after - 1], &frames[after]);
+        let [begin, end] = [from, to].map(|frame| frame["time_s"].as_f64().unwrap());
+        let share = (time - begin) / (end - begin);
+        for (index, joint) in joints.iter().enumerate() {
+            let [a, b] = [from, to].map(|frame| frame["angles_rad"][index].as_f64().unwrap());
+            let commanded = number(&rows[&format!("{}_cmd_rad", joint.as_str().unwrap())][row]);
+            let line = a + share * (b - a);
+            // 1e-5: six decimals in both.
+            assert!(
+                (line - commanded).abs() < tolerance + 1e-5,
+                "{joint} at {time}: {line}, {commanded}"
+            );
+        }
+    }
+}
+
+#[test]
+fn python_reads_the_timeline() {
+    let home = tempfile::tempdir().unwrap();
+    let file = exported(&home, "xar", &[]);
+    let Some(found) = read("xar", &file) else {
+        return;
+    };
+    let rows = rows();
+    assert!(
+        found["root"]
+            .as_str()
+            .unwrap()
+            .ends_with("}ChoregrapheProject")
+    );
+    assert_eq!(found["version"], "3");
+    assert_eq!(found["fps"], "25");
+    assert_eq!(found["links"], 2);
+    assert_eq!(found["tangents"], serde_json::json!(["linear"]));
+    let curves = found["curves"].as_object().unwrap();
+    assert_eq!(curves.len(), JOINTS);
+    let size = number(found["size"].as_str().unwrap());
+    // Two seconds before it, then the cycle.
+    assert!(
+        (size - 25.0 * (2.0 + number(rows["time_s"].last().unwrap()))).abs() <= 0.5,
+        "{size}"
+    );
+    for (joint, curve) in curves {
+        assert_eq!(curve["unit"], "0", "{joint}: degrees");
+        let keys = curve["keys"].as_array().unwrap();
+        let frames: Vec<i64> = keys.iter().map(|key| key[0].as_i64().unwrap()).collect();
+        assert!(frames.is_sorted_by(|a, b| a < b), "{joint}: {frames:?}");
+        assert_eq!(frames[0], 50);
+        assert_eq!(keys[0][1], keys[keys.len() - 1][1], "{joint} closes");
+        // Keys of frame 50 + n are commanded n / 25 s into the cycle: every second row of 0.02 s.
+        for key in &keys[1..keys.len() - 1] {
+            let row = 2 * (usize::try_from(key[0].as_i64().unwrap()).unwrap() - 50) - 1;
+            let commanded = number(&rows[&format!("{joint}_cmd_rad")][row]).to_degrees();
+            // 1e-3: the record has microradians, the timeline four decimals.
+            near(&key[1], commanded, 1e-3);
+        }
+    }
+}
+
+#[test]
+fn pillow_reads_the_animations() {
+    let small = ["--size", "161x91", "--fps", "5", "--to-s", "0.9"];
+    let home = tempfile::tempdir().unwrap();
+    for (format, kind, view) in [("gif", "GIF", "side"), ("webp", "WEBP", "follow")] {
+        let file = exported(&home, format, &[&small[..], &["--view", view]].concat());
+        let Some(found) = read(format, &file) else {
+            continue;
+        };
+        assert_eq!(found["format"], kind);
+        assert_eq!(found["size"], serde_json::json!([161, 91]));
+        // 0.02 s to 0.9 s at five per second: 0.02, 0.22, … 0.82.
+        assert_eq!(found["count"], 5, "{format}");
+        assert_eq!(found["milliseconds"], 1000, "{format}");
+        assert_eq!(found["loop"], 0, "{format}");
+        assert!(found["colours"].as_u64().unwrap() > 50, "{format}: {found}");
+        assert!(
+            found["changed"].as_u64().unwrap() > 100,
+            "{format}: {found}"
+        );
+    }
+}
+
+#[test]
+fn the_eye_sees_past_the_head() {
+    let home = tempfile::tempdir().unwrap();
+    let eye = [
+        "--view", "eye", "--size", "64x48", "--fps", "1", "--to-s", "0.5",
+    ];
+    let file = exported(&home, "webp", &eye);
+    let Some(found) = read("webp", &file) else {
+        return;
+    };
+    // The inside of a skull has one colour.
+    assert!(found["colours"].as_u64().unwrap() > 100, "{found}");
+}
+
+#[test]
+fn ffmpeg_makes_the_video_and_whoever_has_none_is_told() {
+    let home = tempfile::tempdir().unwrap();
+    let out = home.path().join("short.mp4");
+    let arguments = [
+        "export",
+        record().to_str().unwrap(),
+        "--format",
+        "mp4",
+        "--out",
+        out.to_str().unwrap(),
+        "--size",
+        "160x90",
+        "--fps",
+        "10",
+        "--to-s",
+        "0.5",
+    ];
+    let empty = home.path().join("empty");
+    fs::create_dir(&empty).unwrap();
+    let refused = prone(&arguments, empty.to_str());
+    assert_eq!(refused.status.code(), Some(1));
+    let message = text(&refused.stderr);
+    assert!(
+        message.contains("ffmpeg, which is not on PATH"),
+        "{message}"
+    );
+    let files = || fs::read_dir(home.path()).unwrap().count();
+    assert_eq!(files(), 1, "nothing is left");
+    let Some(found) = read("ffmpeg", home.path()) else {
+        return;
+    };
+    let ffmpeg = found["path"].as_str().unwrap();
+    let folder = home.path().join("with");
+    fs::create_dir(&folder).unwrap();
+    std::os::unix::fs::symlink(ffmpeg, folder.join("ffmpeg")).unwrap();
+    let done = prone(&arguments, folder.to_str());
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    assert_eq!(files(), 3, "two folders and the film");
+    let found = read("mp4", &out).unwrap();
+    assert_eq!(found["size"], serde_json::json!([160, 90]));
+    assert_eq!(found["codec"], "h264");
+    // 0.02, 0.12, … 0.42.
+    assert_eq!(found["count"], 5);
+    near(&found["fps"], 10.0, 1e-9);
+    assert_eq!(found["moves"], true);
+    // One that fails leaves nothing either.
+    fs::remove_file(folder.join("ffmpeg")).unwrap();
+    fs::write(
+        folder.join("ffmpeg"),
+        "#!/bin/sh\necho no such codec >&2\nexit 3\n",
+    )
+    .unwrap();
+    let mode = std::os::unix::fs::PermissionsExt::from_mode(0o755);
+    fs::set_permissions(folder.join("ffmpeg"), mode).unwrap();
+    fs::remove_file(&out).unwrap();
+    let path = format!("{}:/bin:/usr/bin", folder.display());
+    let failed = prone(&arguments, Some(&path));
+    assert_eq!(failed.status.code(), Some(1));
+    assert_eq!(
+        text(&failed.stderr),
+        "error: ffmpeg failed: no such codec\n"
+    );
+    assert_eq!(files(), 2);
+}
+
+#[test]
+fn the_same_record_gives_the_same_bytes_on_any_number_of_threads() {
+    let home = tempfile::tempdir().unwrap();
+    let file = |threads: &str| {
+        let out = home.path().join(threads);
+        let done = Command::new(env!("CARGO_BIN_EXE_prone"))
+            .env("RAYON_NUM_THREADS", threads)
+            .args([
+                "export",
+                record().to_str().unwrap(),
+                "--format",
+                "gif",
+                "--size",
+                "64x36",
+            ])
+            .args([
+                "--fps",
+                "10",
+                "--to-s",
+                "0.9",
+                "--out",
+                out.to_str().unwrap(),
+            ])
+            .output()
+            .unwrap();
+        assert!(done.status.success(), "{}", text(&done.stderr));
+        fs::read(out).unwrap()
+    };
+    assert!(file("1") == file("3"));
+}
+
+#[test]
+fn what_is_left_of_a_record_is_exported_and_said() {
+    let home = tempfile::tempdir().unwrap();
+    let copy = home.path().join("cut");
+    fs::create_dir(&copy).unwrap();
+    for file in ["run.json", "model.json", "rows.csv", "contacts.csv"] {
+        fs::copy(record().join(file), copy.join(file)).unwrap();
+    }
+    let rows = fs::read(copy.join("rows.csv")).unwrap();
+    fs::write(copy.join("rows.csv"), &rows[..rows.len() / 2]).unwrap();
+    let out = home.path().join("cut.csv");
+    let arguments = [
+        "export",
+        copy.to_str().unwrap(),
+        "--format",
+        "csv",
+        "--out",
+        out.to_str().unwrap(),
+    ];
+    let done = prone(&arguments, None);
+    assert_eq!(done.status.code(), Some(2));
+    let message = text(&done.stderr);
+    assert!(
+        message.contains("rows.csv is cut off or damaged at line"),
+        "{message}"
+    );
+    assert!(
+        message.contains("exported is what can be read: "),
+        "{message}"
+    );
+    let lines = fs::read_to_string(&out).unwrap().lines().count();
+    assert!(lines > 1 && (lines - 1).is_multiple_of(JOINTS), "{lines}");
+}

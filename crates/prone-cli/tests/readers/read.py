@@ -1,0 +1,178 @@
+"""Reads an export with a program of somebody else and prints what it found as one JSON object.
+
+    python3 read.py FORMAT FILE
+
+Nothing here knows prone: libraries only are asked.
+"""
+
+import json
+import sys
+
+
+def mcap(path):
+    from mcap.reader import make_reader
+    from mcap_ros2.decoder import DecoderFactory
+
+    with open(path, "rb") as stream:
+        reader = make_reader(stream, validate_crcs=True, decoder_factories=[DecoderFactory()])
+        summary = reader.get_summary()
+        topics = {}
+        for schema, channel, message, decoded in reader.iter_decoded_messages():
+            topic = topics.setdefault(
+                channel.topic,
+                {"schema": schema.name, "schema_encoding": schema.encoding,
+                 "encoding": channel.message_encoding, "count": 0, "times": [], "first": None},
+            )
+            topic["count"] += 1
+            topic["times"].append(message.log_time)
+            plain = as_plain(decoded)
+            topic["first"] = topic["first"] or plain
+            topic["last"] = plain
+        for topic in topics.values():
+            times = topic.pop("times")
+            topic["in_order"] = times == sorted(times)
+            topic["begin_ns"], topic["end_ns"] = times[0], times[-1]
+        header = reader.get_header()
+        return {
+            "profile": header.profile,
+            "library": header.library,
+            "messages": summary.statistics.message_count,
+            "chunks": summary.statistics.chunk_count,
+            "topics": topics,
+        }
+
+
+def as_plain(message):
+    if hasattr(message, "__slots__"):
+        return {name: as_plain(getattr(message, name)) for name in message.__slots__}
+    if isinstance(message, (str, bytes, int, float)):
+        return message
+    return [as_plain(part) for part in message]
+
+
+def npz(path):
+    import numpy
+
+    with numpy.load(path, allow_pickle=False) as archive:
+        return {
+            name: {
+                "kind": archive[name].dtype.kind,
+                "shape": list(archive[name].shape),
+                "first": archive[name][:1].tolist(),
+                "last": archive[name][-1:].tolist(),
+                "whole": archive[name].tolist() if archive[name].size < 100 else None,
+            }
+            for name in archive.files
+        }
+
+
+def urdf(path):
+    import pybullet
+
+    client = pybullet.connect(pybullet.DIRECT)
+    robot = pybullet.loadURDF(path, flags=pybullet.URDF_USE_INERTIA_FROM_FILE)
+    count = pybullet.getNumJoints(robot)
+    joints = [pybullet.getJointInfo(robot, index) for index in range(count)]
+    names = [joint[1].decode() for joint in joints]
+    angles = {name: 0.1 * ((7 * index) % 5 - 2) for index, name in enumerate(names)}
+    for index, name in enumerate(names):
+        pybullet.resetJointState(robot, index, angles[name])
+    # Frames of links, not of centres of mass; of the root pybullet tells the latter.
+    base_at, base_turn = pybullet.getBasePositionAndOrientation(robot)
+    inertial = pybullet.getDynamicsInfo(robot, -1)
+    inverse = pybullet.invertTransform(inertial[3], inertial[4])
+    base = pybullet.multiplyTransforms(base_at, base_turn, *inverse)
+    ground = pybullet.invertTransform(*base)
+    states = [pybullet.getLinkState(robot, index, computeForwardKinematics=True) for index in range(count)]
+    places = [pybullet.multiplyTransforms(*ground, state[4], state[5])[0] for state in states]
+    found = {
+        "root": pybullet.getBodyInfo(robot)[0].decode(),
+        "mass": sum(pybullet.getDynamicsInfo(robot, index)[0] for index in range(-1, count)),
+        "joints": [
+            {"name": joint[1].decode(), "kind": joint[2], "link": joint[12].decode(),
+             "lower": joint[8], "upper": joint[9], "effort": joint[10], "speed": joint[11],
+             "axis": joint[13], "angle": angles[joint[1].decode()], "place": place}
+            for joint, place in zip(joints, places)
+        ],
+        "collisions": sum(len(pybullet.getCollisionShapeData(robot, index)) for index in range(-1, count)),
+        "visuals": len(pybullet.getVisualShapeData(robot)),
+    }
+    pybullet.disconnect(client)
+    return found
+
+
+def xar(path):
+    import xml.etree.ElementTree as tree
+
+    root = tree.parse(path).getroot()
+    space = {"c": "http://www.aldebaran-robotics.com/schema/choregraphe/project.xsd"}
+    timeline = root.find(".//c:Box/c:Timeline[@enable='1']", space)
+    curves = timeline.findall("c:ActuatorList/c:ActuatorCurve", space)
+    return {
+        "root": root.tag,
+        "version": root.get("xar_version"),
+        "fps": timeline.get("fps"),
+        "size": timeline.get("size"),
+        "links": len(root.findall(".//c:Link", space)),
+        "tangents": sorted({t.get("interpType") for t in root.iter("{%s}Tangent" % space["c"])}),
+        "curves": {
+            curve.get("actuator"): {
+                "unit": curve.get("unit"),
+                "keys": [[int(key.get("frame")), float(key.get("value"))] for key in curve.findall("c:Key", space)],
+            }
+            for curve in curves
+        },
+    }
+
+
+def picture(path):
+    from PIL import Image, ImageSequence
+
+    with Image.open(path) as image:
+        frames = [(frame.convert("RGB"), frame.info.get("duration")) for frame in ImageSequence.Iterator(image)]
+        return {
+            "format": image.format,
+            "size": list(image.size),
+            "count": len(frames),
+            "milliseconds": sum(duration or 0 for _, duration in frames),
+            "loop": image.info.get("loop"),
+            "corner": frames[0][0].getpixel((2, 2)),
+            "colours": len(frames[0][0].getcolors(1 << 24)),
+            "changed": sum(a != b for a, b in zip(frames[0][0].tobytes(), frames[-1][0].tobytes())),
+        }
+
+
+def video(path):
+    import imageio_ffmpeg
+
+    frames = imageio_ffmpeg.read_frames(path)
+    head = next(frames)
+    pictures = list(frames)
+    return {
+        "size": list(head["size"]),
+        "fps": head["fps"],
+        "codec": head["codec"],
+        "count": len(pictures),
+        "moves": pictures[0] != pictures[-1],
+    }
+
+
+def ffmpeg(_):
+    """Where an ffmpeg is."""
+    import imageio_ffmpeg
+
+    return {"path": imageio_ffmpeg.get_ffmpeg_exe()}
+
+
+READERS = {"mcap": mcap, "npz": npz, "urdf": urdf, "xar": xar, "gif": picture, "webp": picture,
+           "mp4": video, "ffmpeg": ffmpeg}
+
+if __name__ == "__main__":
+    kind, file = sys.argv[1:]
+    try:
+        # pybullet greets on standard output.
+        found = READERS[kind](file)
+    except ModuleNotFoundError as error:
+        print(f"no {error.name}", file=sys.stderr)
+        sys.exit(77)
+    print("\nFOUND " + json.dumps(found))

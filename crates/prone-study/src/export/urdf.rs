@@ -1,0 +1,180 @@
+//! A robot as URDF: links, hinges, inertias, primitive shapes.
+//!
+//! A link's frame lies where its hinge's axis passes; where a body of the model is hinged at its own
+//! origin, as all of the NAO's are, that is the body's frame, and the frames of a log's `/tf` are
+//! the links of this file. URDF has no capsule and no ellipsoid: a capsule is written as a cylinder
+//! and two spheres, which is the same solid, an ellipsoid as the box around it, which stands in for
+//! it and is never lower than the ellipsoid.
+
+use std::fmt::Write as _;
+
+use glam::{DMat3, DQuat, DVec3, EulerRot};
+
+use prone::robot::{Body, BodyId, Robot};
+use prone_sim::{InertiaView, ShapeView, World};
+
+use super::timeline::escaped;
+
+/// Groups of the engine that are drawn: 0 to 2.
+const DRAWN: std::ops::RangeInclusive<i32> = 0..=2;
+
+/// Writes the robot of a world.
+pub fn of(world: &World) -> String {
+    let robot = world.robot();
+    let (shapes, inertias) = (world.shape_views(), world.inertia_views());
+    let mut text = format!(
+        "<?xml version=\"1.0\"?>\n<!-- Made by prone {} from its MJCF model. Ellipsoids are written \
+         as the boxes around them: URDF has none. -->\n<robot name=\"{}\">\n",
+        env!("CARGO_PKG_VERSION"),
+        escaped(&robot.name)
+    );
+    for (index, (body, inertia)) in robot.bodies.iter().zip(&inertias).enumerate() {
+        let shapes = shapes.iter().filter(|shape| shape.body == BodyId(index));
+        link(&mut text, robot, body, inertia, shapes);
+    }
+    for body in &robot.bodies {
+        joint(&mut text, robot, body);
+    }
+    text + "</robot>\n"
+}
+
+fn link<'a>(
+    text: &mut String,
+    robot: &Robot,
+    body: &Body,
+    inertia: &InertiaView,
+    shapes: impl Iterator<Item = &'a ShapeView>,
+) {
+    let shift = link_in_body(robot, body);
+    // Writing to a text does not fail.
+    let _ = writeln!(text, "  <link name=\"{}\">", escaped(&body.name));
+    if body.mass > 0.0 {
+        let turn = DMat3::from_quat(inertia.rotation);
+        let tensor = turn * DMat3::from_diagonal(inertia.principal) * turn.transpose();
+        let [x, y, z] = tensor.to_cols_array_2d();
+        let _ = writeln!(
+            text,
+            "    <inertial>{}<mass value=\"{:.6}\"/><inertia ixx=\"{:.9e}\" ixy=\"{:.9e}\" \
+             ixz=\"{:.9e}\" iyy=\"{:.9e}\" iyz=\"{:.9e}\" izz=\"{:.9e}\"/></inertial>",
+            origin(body.centre_of_mass.metres() - shift, DQuat::IDENTITY),
+            body.mass,
+            x[0],
+            x[1],
+            x[2],
+            y[1],
+            y[2],
+            z[2]
+        );
+    }
+    for shape in shapes {
+        for (place, geometry) in solids(shape) {
+            let at = shape.position + shape.rotation * place - shift;
+            let place = origin(at, shape.rotation);
+            if DRAWN.contains(&shape.group) {
+                let [r, g, b, a] = shape.colour;
+                let _ = writeln!(
+                    text,
+                    "    <visual>{place}<geometry>{geometry}</geometry><material name=\"{}\"><color \
+                     rgba=\"{r:.3} {g:.3} {b:.3} {a:.3}\"/></material></visual>",
+                    material(shape.colour)
+                );
+            }
+            if shape.collides {
+                let _ = writeln!(
+                    text,
+                    "    <collision>{place}<geometry>{geometry}</geometry></collision>"
+                );
+            }
+        }
+    }
+    *text += "  </link>\n";
+}
+
+fn joint(text: &mut String, robot: &Robot, body: &Body) {
+    let Some(parent) = body.parent.map(|parent| &robot.bodies[parent.0]) else {
+        return;
+    };
+    let shift = link_in_body(robot, body);
+    let pose = &body.parent_from_body;
+    let at = pose.origin().metres() + pose.rotation() * shift - link_in_body(robot, parent);
+    let hinge = body.joint.map(|joint| &robot.joints[joint.0]);
+    let name = hinge.map_or_else(
+        || format!("{}_fixed", body.name),
+        |joint| joint.name.clone(),
+    );
+    let kind = hinge.map_or("fixed", |_| "revolute");
+    let _ = writeln!(
+        text,
+        "  <joint name=\"{}\" type=\"{kind}\">\n    {}<parent link=\"{}\"/><child link=\"{}\"/>",
+        escaped(&name),
+        origin(at, pose.rotation()),
+        escaped(&parent.name),
+        escaped(&body.name)
+    );
+    if let Some(joint) = hinge {
+        let _ = writeln!(
+            text,
+            "    <axis xyz=\"{}\"/><limit lower=\"{}\" upper=\"{}\" effort=\"{}\" velocity=\"{}\"/>",
+            triple(joint.axis),
+            joint.range.lower,
+            joint.range.upper,
+            joint.effort_limit,
+            joint.speed_limit
+        );
+    }
+    *text += "  </joint>\n";
+}
+
+/// Origin of a body's link in the body's frame: its hinge, or its own origin.
+fn link_in_body(robot: &Robot, body: &Body) -> DVec3 {
+    body.joint
+        .map_or(DVec3::ZERO, |joint| robot.joints[joint.0].anchor.metres())
+}
+
+/// A shape as URDF's solids, each with its place along the shape's axes.
+fn solids(shape: &ShapeView) -> Vec<(DVec3, String)> {
+    let sphere = |radius: f64| format!("<sphere radius=\"{radius}\"/>");
+    let cylinder = |radius: f64, half: f64| {
+        format!("<cylinder radius=\"{radius}\" length=\"{}\"/>", 2.0 * half)
+    };
+    match (shape.kind, shape.size.as_slice()) {
+        ("sphere", &[radius]) => vec![(DVec3::ZERO, sphere(radius))],
+        ("cylinder", &[radius, half]) => vec![(DVec3::ZERO, cylinder(radius, half))],
+        ("capsule", &[radius, half]) => vec![
+            (DVec3::ZERO, cylinder(radius, half)),
+            (half * DVec3::Z, sphere(radius)),
+            (half * DVec3::NEG_Z, sphere(radius)),
+        ],
+        ("box" | "ellipsoid", &[x, y, z]) => {
+            let edges = triple(2.0 * DVec3::new(x, y, z));
+            vec![(DVec3::ZERO, format!("<box size=\"{edges}\"/>"))]
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// A name per colour, as a name that stands for two colours is an error.
+fn material(colour: [f64; 4]) -> String {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "shares of 0 to 1 as bytes"
+    )]
+    let bytes = colour.map(|share| format!("{:02x}", (share * 255.0).round() as u8));
+    format!("rgba_{}", bytes.concat())
+}
+
+/// URDF's angles turn about fixed x, y, z, in that order.
+fn origin(metres: DVec3, turn: DQuat) -> String {
+    let (yaw, pitch, roll) = turn.to_euler(EulerRot::ZYX);
+    let angles = triple(DVec3::new(roll, pitch, yaw));
+    format!("<origin xyz=\"{}\" rpy=\"{angles}\"/>", triple(metres))
+}
+
+/// Nanometres and nanoradians; 0 without a sign.
+fn triple(vector: DVec3) -> String {
+    let parts = vector
+        .to_array()
+        .map(|part| (part * 1e9).round() / 1e9 + 0.0);
+    parts.map(|part| part.to_string()).join(" ")
+}
