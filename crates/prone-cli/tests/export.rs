@@ -497,8 +497,8 @@ fn the_eye_sees_past_the_head() {
     let Some(found) = read("webp", &file) else {
         return;
     };
-    // The inside of a skull has one colour.
-    assert!(found["colours"].as_u64().unwrap() > 100, "{found}");
+    // What is blank has one colour; the floor close by, with its lines and shadows, dozens.
+    assert!(found["colours"].as_u64().unwrap() > 40, "{found}");
 }
 
 #[test]

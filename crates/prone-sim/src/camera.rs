@@ -27,6 +27,8 @@ use std::sync::Arc;
 use glam::DVec3;
 use mujoco_rs::prelude::{MjData, MjModel};
 
+use prone::robot::BodyId;
+
 pub(crate) use glass::GLASS_GROUP;
 pub use picture::{Picture, PictureError};
 
@@ -50,6 +52,8 @@ pub struct Camera {
     pub vertical_fov: f64,
     /// What points up in the picture, in the ground frame.
     pub up: DVec3,
+    /// The part of the robot that it is built into, which it does not see.
+    pub inside: Option<BodyId>,
 }
 
 impl Camera {
@@ -89,6 +93,7 @@ impl Camera {
             target,
             vertical_fov,
             up: DVec3::Z,
+            inside: None,
         }
     }
 
@@ -119,7 +124,7 @@ pub fn ray_cast(data: &mut MjData<Arc<MjModel>>, camera: &Camera, size: (usize, 
     let has_glass = Looks::has_glass(data.model());
     let lens = Lens::new(camera, size);
     let studio = Studio::around(camera);
-    let mut tracer = Tracer::new(data);
+    let mut tracer = Tracer::new(data, camera.inside);
 
     let hits = first_hits(&mut tracer, &lens);
     let openness = studio.openness(&mut tracer, &hits, width);

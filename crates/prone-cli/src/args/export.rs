@@ -55,7 +55,7 @@ pub(crate) enum Format {
     Csv,
     /// ROS 2 messages: joint states, tf, contacts
     Mcap,
-    /// Arrays for numpy
+    /// Arrays of numpy
     Npz,
     /// The robot
     Urdf,

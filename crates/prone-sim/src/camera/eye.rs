@@ -5,11 +5,13 @@ use std::sync::Arc;
 use glam::DVec3;
 use mujoco_rs::prelude::{MjData, MjModel};
 
+use prone::robot::BodyId;
+
 use super::Camera;
 
-/// How far ahead of the camera's centre a picture begins, m: past what the camera is built into,
-/// whose shape in the model may reach a millimetre over the lens.
-const LENS: f64 = 0.01;
+/// How far behind the camera's place in the model its pictures are taken, m: that place may be on
+/// the face, which touches the floor when the head is pitched down.
+const DEPTH: f64 = 0.005;
 
 impl Camera {
     /// The first camera of the robot's model where it is now; `None` for a model without one.
@@ -20,12 +22,15 @@ impl Camera {
         let position = DVec3::from_array(*data.cam_xpos().first()?);
         let [_, y, z] = columns(data.cam_xmat().first()?);
         // In the engine a camera looks along -z, with +y up.
-        let position = position - LENS * z;
+        let position = position + DEPTH * z;
+        let body = usize::try_from(*data.model().cam_bodyid().first()?).ok()?;
         Some(Self {
             position,
             target: position - z,
             vertical_fov: fov.to_radians(),
             up: y,
+            // The engine's body 0 is the world.
+            inside: body.checked_sub(1).map(BodyId),
         })
     }
 }

@@ -13,6 +13,7 @@ const AHEAD: Camera = Camera {
     target: DVec3::new(0.0, 0.0, 0.5),
     vertical_fov: 0.6,
     up: DVec3::Z,
+    inside: None,
 };
 const RADIUS: f64 = 0.05;
 
@@ -176,6 +177,7 @@ fn looking_straight_down_has_forward_at_the_top() {
         target: DVec3::ZERO,
         vertical_fov: 0.5,
         up: DVec3::Z,
+        inside: None,
     };
     assert_eq!(camera.axes(), [DVec3::NEG_Z, DVec3::NEG_Y, DVec3::X]);
 }

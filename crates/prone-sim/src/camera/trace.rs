@@ -5,6 +5,8 @@ use std::sync::Arc;
 use glam::DVec3;
 use mujoco_rs::prelude::{MjData, MjModel};
 
+use prone::robot::BodyId;
+
 use super::glass;
 
 /// The visible geom groups, 0 to 2: those that the engine's viewer shows from the start.
@@ -30,11 +32,17 @@ pub(super) struct Hit {
 /// The engine as a caster of rays; the state does not change.
 pub(super) struct Tracer<'a> {
     data: &'a mut MjData<Arc<MjModel>>,
+    /// The engine's number of a body that rays from the camera pass through.
+    unseen: Option<usize>,
 }
 
 impl<'a> Tracer<'a> {
-    pub(super) fn new(data: &'a mut MjData<Arc<MjModel>>) -> Self {
-        Self { data }
+    pub(super) fn new(data: &'a mut MjData<Arc<MjModel>>, unseen: Option<BodyId>) -> Self {
+        Self {
+            data,
+            // The engine's body 0 is the world.
+            unseen: unseen.map(|BodyId(body)| body + 1),
+        }
     }
 
     /// Follows unit directions from one origin to what is solid.
@@ -60,7 +68,7 @@ impl<'a> Tracer<'a> {
             &arrays,
             Some(&groups),
             true,
-            None,
+            self.unseen,
             HORIZON,
             Some(&mut normals),
         );

@@ -64,6 +64,7 @@ pub(crate) fn sequence(
         target,
         vertical_fov: 2.0 * (HEIGHT / 2.0 / distance).atan(),
         up: DVec3::Z,
+        inside: None,
     };
     #[expect(
         clippy::cast_possible_truncation,

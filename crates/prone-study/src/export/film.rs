@@ -260,6 +260,7 @@ impl<'a> Film<'a> {
             target,
             vertical_fov: self.field_of_view((width, 0.0), distance),
             up: DVec3::Z,
+            inside: None,
         }
     }
 
