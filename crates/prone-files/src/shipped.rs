@@ -53,8 +53,9 @@ const GAITS: [(&str, &str); 8] = [
 ];
 
 /// Names and texts of the cycles that ship with the program: those with the published postures, then
-/// those that keep low and can be steered, then those that come farthest under a ceiling.
-const CYCLES: [(&str, &str); 8] = [
+/// those that keep low and can be steered, then those that come farthest under a ceiling,
+/// and the one of least motor heat per metre.
+const CYCLES: [(&str, &str); 9] = [
     (
         "thesis-nominal",
         include_str!("../../../gaits/thesis-nominal.toml"),
@@ -69,6 +70,7 @@ const CYCLES: [(&str, &str); 8] = [
     ("far-200", include_str!("../../../gaits/far-200.toml")),
     ("far-183", include_str!("../../../gaits/far-183.toml")),
     ("far-165", include_str!("../../../gaits/far-165.toml")),
+    ("efficient", include_str!("../../../gaits/efficient.toml")),
 ];
 
 /// The names that [`cycle`] knows.
