@@ -40,7 +40,7 @@ pub struct Hunt<'a> {
 }
 
 impl<'a> Hunt<'a> {
-    /// Searches about a cycle in settings made by [`settings`].
+    /// Searches about a cycle in settings made by [`super::settings`].
     ///
     /// # Errors
     /// [`FrontierError`].
