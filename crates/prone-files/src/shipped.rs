@@ -54,8 +54,8 @@ const GAITS: [(&str, &str); 8] = [
 
 /// Names and texts of the cycles that ship with the program: those with the published postures, then
 /// those that keep low and can be steered, then those that come farthest under a ceiling,
-/// and the one of least motor heat per metre.
-const CYCLES: [(&str, &str); 9] = [
+/// and those of least motor heat and of least torque asked of the shoulders.
+const CYCLES: [(&str, &str); 10] = [
     (
         "thesis-nominal",
         include_str!("../../../gaits/thesis-nominal.toml"),
@@ -71,6 +71,7 @@ const CYCLES: [(&str, &str); 9] = [
     ("far-183", include_str!("../../../gaits/far-183.toml")),
     ("far-165", include_str!("../../../gaits/far-165.toml")),
     ("efficient", include_str!("../../../gaits/efficient.toml")),
+    ("gentle", include_str!("../../../gaits/gentle.toml")),
 ];
 
 /// The names that [`cycle`] knows.

@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 use mujoco_rs::prelude::*;
 
 use prone::frames::{Ground, Link, Point, Root, Transform};
-use prone::robot::{BodyPoses, ContactGroup, JointAngles, JointId, Robot};
+use prone::robot::{BodyPoses, ContactGroup, Joint, JointAngles, JointId, Robot};
 
 use crate::regime::{CONTROL_STEP, SERVO_RATE, SERVO_SPEED, Servo};
 use crate::world::World;
@@ -26,6 +26,9 @@ pub struct Simulation<'w> {
     world: &'w World,
     data: MjData<Arc<MjModel>>,
     reference: Vec<f64>,
+    /// Velocity gain of each servo, N·m·s/rad.
+    gains: Vec<f64>,
+    demanded: Vec<f64>,
     steps: usize,
 }
 
@@ -85,9 +88,16 @@ impl<'w> Simulation<'w> {
         qpos[..FREE_JOINT].copy_from_slice(&[0.0, 0.0, height, turn.w, turn.x, turn.y, turn.z]);
         qpos[FREE_JOINT..].copy_from_slice(&angles);
         data.forward();
+        let gain = |joint: &Joint| match world.regime().servo {
+            Servo::Robot => joint.servo_gain,
+            Servo::Uniform(gain) => gain,
+        };
+        let gains = robot.joints.iter().map(gain).collect();
         Self {
             world,
             data,
+            demanded: vec![0.0; angles.len()],
+            gains,
             reference: angles,
             steps: 0,
         }
@@ -149,7 +159,11 @@ impl<'w> Simulation<'w> {
     pub fn step(&mut self) {
         for (index, reference) in self.reference.iter().enumerate() {
             let error = reference - self.data.qpos()[FREE_JOINT + index];
-            self.data.ctrl_mut()[index] = (SERVO_RATE * error).clamp(-SERVO_SPEED, SERVO_SPEED);
+            let speed = (SERVO_RATE * error).clamp(-SERVO_SPEED, SERVO_SPEED);
+            self.data.ctrl_mut()[index] = speed;
+            // As the engine is about to work it out, before it cuts it.
+            let lag = speed - self.data.qvel()[FREE_JOINT_SPEEDS + index];
+            self.demanded[index] = self.gains[index] * lag;
         }
         self.data.step();
         self.steps += 1;
@@ -195,14 +209,10 @@ impl<'w> Simulation<'w> {
         &self.data.qvel()[FREE_JOINT_SPEEDS..]
     }
 
-    /// **Demanded torque**: what a joint's servo asks for now, N·m, before the effort limit cuts
-    /// it.
-    pub fn demanded_torque(&self, joint: JointId) -> f64 {
-        let gain = match self.world.regime().servo {
-            Servo::Robot => self.robot().joints[joint.0].servo_gain,
-            Servo::Uniform(gain) => gain,
-        };
-        gain * (self.data.ctrl()[joint.0] - self.joint_speeds()[joint.0])
+    /// **Demanded torque**: what each joint's servo asked for in the last step, N·m, before the
+    /// effort limit cut it to [`Simulation::actuator_torque`].
+    pub fn demanded_torque(&self) -> &[f64] {
+        &self.demanded
     }
 
     /// Joint angles now, rad.

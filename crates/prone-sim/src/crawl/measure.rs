@@ -372,7 +372,7 @@ impl Meter {
             .zip(torques)
             .zip(&self.limits);
         for (index, ((joint, (&torque, &speed)), &(limit, nominal))) in joints.enumerate() {
-            let demanded = simulation.demanded_torque(JointId(index)).abs();
+            let demanded = simulation.demanded_torque()[index].abs();
             joint.square += torque * torque * dt;
             joint.work += (torque * speed).max(0.0) * dt;
             joint.peak = joint.peak.max(torque.abs());

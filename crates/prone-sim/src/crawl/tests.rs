@@ -36,6 +36,7 @@ fn regression_shipped_cycles_advance_and_repeat_themselves() {
         ("far-183", 212.0, 181.0),
         ("far-165", 168.0, 162.0),
         ("efficient", 211.0, 220.0),
+        ("gentle", 73.0, 248.0),
     ] {
         let crawl = crawl(&world, name, 3, 0.0);
         let third = &crawl.cycles[2];
@@ -228,4 +229,40 @@ fn no_limb_goes_through_another_in_a_shipped_cycle() {
     let error = check_limbs(&world, &plan(&crossed, 0.0)).unwrap_err();
     assert!(matches!(error, CrawlError::Limbs { .. }), "{error}");
     assert!(error.to_string().contains("s into the recovery"), "{error}");
+}
+
+/// The actuator's torque is the demanded one, cut at the effort limit.
+#[test]
+fn torque_is_demanded_and_cut() {
+    let robot = nao();
+    let world = World::new(&robot, Regime::LOCOMOTION).unwrap();
+    let robot = world.robot();
+    let placement = Placement {
+        posture: JointAngles::zero(robot),
+        pitch: std::f64::consts::FRAC_PI_2,
+    };
+    let mut simulation = Simulation::new(&world, &placement);
+    let mut far = JointAngles::zero(robot);
+    for joint in robot.chain.left.commanded_joints() {
+        far[joint] = 0.3;
+    }
+    simulation.command(&far);
+    let mut cut = 0;
+    for _ in 0..200 {
+        simulation.step();
+        let torques = simulation
+            .actuator_torque()
+            .iter()
+            .zip(simulation.demanded_torque());
+        for (joint, (torque, demanded)) in robot.joints.iter().zip(torques) {
+            let limit = joint.effort_limit;
+            assert!(
+                (torque - demanded.clamp(-limit, limit)).abs() < 1e-9,
+                "{}",
+                joint.name
+            );
+            cut += usize::from(demanded.abs() > limit);
+        }
+    }
+    assert!(cut > 0, "nothing was demanded beyond a limit");
 }
