@@ -52,6 +52,9 @@ pub(crate) fn run(args: &UnderArgs) -> Result<(), Failure> {
             cycles.push(cycle);
         }
     }
+    if interrupt::requested() {
+        return Err(Failure::Stopped);
+    }
     if let (Some(path), Some(best)) = (&args.gait_out, &passage.best) {
         let cycle = cycles
             .iter()
