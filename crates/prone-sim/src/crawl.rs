@@ -238,7 +238,7 @@ pub fn check_limbs(world: &World, checked: &CheckedCycle) -> Result<(), CrawlErr
             .map(move |k| seconds * k / count)
     };
     let pull = checked.pull().duration().seconds();
-    let path = checked.recovery_from(checked.compression().clone())?;
+    let path = checked.recovery_after(checked)?;
     let mut postures: Vec<JointAngles> = times(pull).map(|time| checked.pull_at(time)).collect();
     let in_pull = postures.len();
     let back: Vec<f64> = times(checked.recovery_seconds()).collect();
@@ -371,9 +371,7 @@ impl<'w> Crawler<'_, 'w> {
         next: &Planned,
         pilot: &mut dyn Pilot,
     ) -> Result<Result<(), SimulationError>, CrawlError> {
-        let path = next
-            .checked
-            .recovery_from(from.checked.compression().clone())?;
+        let path = next.checked.recovery_after(&from.checked)?;
         let seconds = next.checked.recovery_seconds();
         Ok(self.follow(seconds, pilot, |time| (path.at(time), Stage::Recovery)))
     }

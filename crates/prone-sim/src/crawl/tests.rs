@@ -266,3 +266,31 @@ fn torque_is_demanded_and_cut() {
     }
     assert!(cut > 0, "nothing was demanded beyond a limit");
 }
+
+/// Whatever the next turn is, arms that a waypoint holds stay where the last one has planted them.
+#[test]
+fn a_changing_turn_leaves_planted_arms_where_they_are() {
+    let robot = nao();
+    let world = World::new(&robot, Regime::LOCOMOTION).unwrap();
+    let mut cycle = shipped::cycle("low-175").unwrap().unwrap();
+    let plan = |cycle: &Cycle, degrees: f64| {
+        let turn = f64::to_radians(degrees);
+        CheckedCycle::plan(world.robot(), world.stops(), cycle, turn, TimeScale::ONE).unwrap()
+    };
+    // The first waypoint holds the roll at which a straight pull ends.
+    let roll = world.robot().chain.left.shoulder_roll;
+    let held = plan(&cycle, 0.0).compression()[roll];
+    let name = world.robot().joints[roll.0].name.clone();
+    cycle.recovery[0].joints.insert(name, held);
+    for (last, next) in [(12.0, -12.0), (12.0, 0.0), (0.0, 12.0), (12.0, 12.0)] {
+        let (previous, cycle) = (plan(&cycle, last), plan(&cycle, next));
+        let path = cycle.recovery_after(&previous).unwrap();
+        let (_, first) = cycle.recovery_ends()[0];
+        let moved = path.at(first)[roll] - previous.compression()[roll];
+        assert!(
+            moved.abs() < 1e-9,
+            "{last}° to {next}°: {}°",
+            moved.to_degrees()
+        );
+    }
+}

@@ -225,7 +225,7 @@ fn times(cycle: &Cycle) -> Vec<f64> {
 fn completed(robot: &Robot, cycle: &Cycle) -> Result<Cycle, CycleError> {
     let stops = robot.stops();
     let checked = CheckedCycle::plan(robot, &stops, cycle, 0.0, TimeScale::ONE)?;
-    let path = checked.recovery_from(checked.compression().clone())?;
+    let path = checked.recovery_after(&checked)?;
     let named: Vec<&String> = cycle
         .recovery
         .iter()
@@ -280,11 +280,7 @@ mod tests {
                 CheckedCycle::plan(robot, &stops, cycle, 0.0, TimeScale::ONE).unwrap()
             };
             let (one, other) = (plan(&cycle), plan(&again));
-            let path = |checked: &CheckedCycle| {
-                checked
-                    .recovery_from(checked.compression().clone())
-                    .unwrap()
-            };
+            let path = |checked: &CheckedCycle| checked.recovery_after(checked).unwrap();
             let (back, forth) = (path(&one), path(&other));
             for k in 0..=20 {
                 let t = f64::from(k) / 20.0;

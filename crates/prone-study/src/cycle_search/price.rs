@@ -3,8 +3,8 @@
 //! A cycle is crawled in one or more settings (friction, servo, time scale). In the main ones the
 //! value is averaged: heat per metre (geometrically: with stiff servos it is five times that with
 //! soft ones, and a percent is a percent), advance per cycle or speed. In all of them the rules are
-//! held: nothing higher than the ceiling, enough advance, no torque over the limit, the body's
-//! weight on toes and elbows. What is broken adds up, each in shares of its limit, and compares
+//! held: nothing higher than the ceiling, enough advance, and where [`CycleRules`] ask for them no
+//! more of a shoulder's servo and no more weight on trunk and legs in the pull. What is broken adds up, each in shares of its limit, and compares
 //! before the value. The settings are taken in order, and those after one that breaks a rule are
 //! not simulated: each counts as [`UNTRIED`].
 
@@ -338,7 +338,7 @@ fn collides(collision: &SelfCollision, checked: &CheckedCycle) -> f64 {
     let mut postures: Vec<JointAngles> = (0..=PLAN_SAMPLES)
         .map(|k| checked.pull_at(seconds * share(k, PLAN_SAMPLES)))
         .collect();
-    if let Ok(path) = checked.recovery_from(checked.compression().clone()) {
+    if let Ok(path) = checked.recovery_after(checked) {
         let (seconds, count) = (checked.recovery_seconds(), 3 * PLAN_SAMPLES);
         postures.extend((1..count).map(|k| path.at(seconds * share(k, count))));
     }

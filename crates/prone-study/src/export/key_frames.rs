@@ -40,7 +40,7 @@ pub struct KeyFrame {
 pub fn of(checked: &CheckedCycle, tick_s: f64) -> Result<KeyFrames, CycleError> {
     let course = Course {
         checked,
-        recovery: checked.recovery_from(checked.compression().clone())?,
+        recovery: checked.recovery_after(checked)?,
         pull_s: checked.pull().duration().seconds(),
         tick_s,
     };

@@ -5,9 +5,9 @@
 //! ```
 //!
 //! In the pull toes and elbows are planted and a [`Gait`] moves the chain; head and other joints
-//! may move along. In the recovery the body lies on the floor and each limb is an open chain that
-//! goes from waypoint to waypoint, joint by joint. The cycle ends where it began, one advance
-//! further on.
+//! may move along. In the recovery each limb is an open chain that goes from waypoint to waypoint,
+//! joint by joint, while the body lies on the floor or on knees and forearms; it may move on too.
+//! The cycle ends where it began, one advance further on.
 //!
 //! A turn command u makes the pull asymmetric: over the phase s the left arm is spread by
 //! k·u·(1 − 2s) more than the gait has it and the right arm by as much less, and the steering's

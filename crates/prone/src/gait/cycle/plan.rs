@@ -22,6 +22,10 @@ pub struct CheckedCycle {
     pull: CheckedTrajectory,
     /// The recovery, waypoint by waypoint; the last is the extension.
     stretches: Vec<Stretch>,
+    /// By how much the turn has moved each joint at the end of the pull, rad; 0 for those that the
+    /// recovery puts back at once.
+    aside: Vec<f64>,
+    stops: Vec<Range>,
     clamps: Vec<Clamp>,
     fastest: FastestJoint,
     speed_limits: Vec<(String, f64)>,
@@ -174,16 +178,9 @@ impl CheckedCycle {
             source,
         })?;
         let pull = planner.pull(duration, turn)?;
+        let aside = planner.aside(&pull, duration, turn)?;
         let mut clamps = pull.clamps().to_vec();
-        let aside = if turn == 0.0 {
-            None
-        } else {
-            Some(Aside {
-                turned: last(&pull).clone(),
-                straight: last(&planner.pull(duration, 0.0)?).clone(),
-            })
-        };
-        let mut stretches = planner.waypoints(scale, aside.as_ref(), &mut clamps)?;
+        let mut stretches = planner.waypoints(scale, &mut clamps)?;
         stretches.push(Stretch {
             name: "extension".to_owned(),
             approach: planner.scaled("extension", cycle.approach, scale)?,
@@ -201,6 +198,8 @@ impl CheckedCycle {
             turn,
             pull,
             stretches,
+            aside,
+            stops: stops.to_vec(),
             clamps,
             fastest: FastestJoint {
                 joint: String::new(),
@@ -214,7 +213,7 @@ impl CheckedCycle {
                 .collect(),
         };
         checked.fastest = checked.pull_speed()?;
-        let recovery = checked.recovery_speed(&checked.path(checked.compression().clone()))?;
+        let recovery = checked.recovery_speed(&checked.path(&checked))?;
         if recovery.share() > checked.fastest.share() {
             checked.fastest = recovery;
         }
@@ -270,21 +269,35 @@ impl CheckedCycle {
         stretches.collect()
     }
 
-    /// The way to this cycle's extension from where another pull ended.
+    /// The way to this cycle's extension from where the pull of `previous`, planned for the same
+    /// robot and stops, has ended.
     ///
     /// # Errors
     /// [`CycleError::Speed`] where a joint would have to be too fast.
-    pub fn recovery_from(&self, from: JointAngles) -> Result<RecoveryPath, CycleError> {
-        let path = self.path(from);
+    pub fn recovery_after(&self, previous: &Self) -> Result<RecoveryPath, CycleError> {
+        let path = self.path(previous);
         self.recovery_speed(&path)?;
         Ok(path)
     }
 
-    fn path(&self, from: JointAngles) -> RecoveryPath {
+    fn path(&self, previous: &Self) -> RecoveryPath {
+        let from = previous.compression().clone();
         let mut posture = from.clone();
-        let legs = self.stretches.iter().map(|stretch| {
-            let pairs = posture.as_slice().iter().zip(&stretch.targets);
-            posture = JointAngles::from_vec(pairs.map(|(now, to)| to.unwrap_or(*now)).collect());
+        let legs = self.stretches.iter().enumerate().map(|(index, stretch)| {
+            let angles = stretch
+                .targets
+                .iter()
+                .enumerate()
+                .map(|(joint, to)| match to {
+                    None => posture.as_slice()[joint],
+                    // At the first waypoint the arms are still planted where the last turn has put them.
+                    Some(to) if index == 0 && self.stretches.len() > 1 => {
+                        let stop = self.stops[joint];
+                        (to + previous.aside[joint]).clamp(stop.lower, stop.upper)
+                    }
+                    Some(to) => *to,
+                });
+            posture = JointAngles::from_vec(angles.collect());
             (stretch.approach, posture.clone())
         });
         let legs = legs.collect();
@@ -383,12 +396,6 @@ fn last(pull: &CheckedTrajectory) -> &JointAngles {
     &samples[samples.len() - 1].joints
 }
 
-/// Where a pull with a turn ends, and where it would have ended without.
-struct Aside {
-    turned: JointAngles,
-    straight: JointAngles,
-}
-
 struct Planner<'a> {
     robot: &'a Robot,
     stops: &'a [Range],
@@ -464,10 +471,34 @@ impl Planner<'_> {
         )?)
     }
 
+    /// By how much a turn moves each joint at the end of the pull, rad; 0 for the joints that the
+    /// steering names, which go back with the first waypoint.
+    fn aside(
+        &self,
+        pull: &CheckedTrajectory,
+        duration: PhaseDuration,
+        turn: f64,
+    ) -> Result<Vec<f64>, CycleError> {
+        let mut aside = vec![0.0; self.robot.joints.len()];
+        if turn == 0.0 {
+            return Ok(aside);
+        }
+        let straight = self.pull(duration, 0.0)?;
+        let pairs = last(pull).as_slice().iter().zip(last(&straight).as_slice());
+        for (aside, (turned, straight)) in aside.iter_mut().zip(pairs) {
+            *aside = turned - straight;
+        }
+        if let Some(steering) = &self.cycle.steering {
+            for name in steering.joints.keys() {
+                aside[self.joint("steering", name)?.0] = 0.0;
+            }
+        }
+        Ok(aside)
+    }
+
     fn waypoints(
         &self,
         scale: TimeScale,
-        aside: Option<&Aside>,
         clamps: &mut Vec<Clamp>,
     ) -> Result<Vec<Stretch>, CycleError> {
         let mut stretches = Vec::with_capacity(self.cycle.recovery.len() + 1);
@@ -475,25 +506,13 @@ impl Planner<'_> {
             let place = format!("waypoint {}", waypoint.name);
             let mut targets = vec![None; self.robot.joints.len()];
             if let (0, Some(steering)) = (index, &self.cycle.steering) {
-                // A turn's joints go back; the arms are still planted and keep what it added.
+                // A turn's joints go back.
                 for name in steering.joints.keys() {
                     targets[self.joint("steering", name)?.0] = Some(0.0);
                 }
             }
-            let turned: Vec<JointId> = match &self.cycle.steering {
-                Some(steering) => steering
-                    .joints
-                    .keys()
-                    .filter_map(|name| self.robot.joint(name))
-                    .collect(),
-                None => Vec::new(),
-            };
             for (joint, sign, &angle) in self.with_twins(&place, &waypoint.joints)? {
-                let mut angle = sign * angle;
-                if let (0, Some(aside)) = (index, aside.filter(|_| !turned.contains(&joint))) {
-                    angle += aside.turned[joint] - aside.straight[joint];
-                }
-                targets[joint.0] = Some(self.within_stop(&place, joint, angle, clamps)?);
+                targets[joint.0] = Some(self.within_stop(&place, joint, sign * angle, clamps)?);
             }
             stretches.push(Stretch {
                 name: waypoint.name.clone(),
