@@ -13,9 +13,10 @@ use serde_json::{Value, json};
 use prone::gait::cycle::Cycle;
 use prone_sim::{LoadedRobot, Regime};
 use prone_study::cycle_search::frontier::{self, Hunt};
-use prone_study::cycle_search::price::{CycleObjective, CycleRules, Setting};
+use prone_study::cycle_search::price::{Aim, CycleObjective, CycleRules, Merge};
 use prone_study::cycle_search::record::{Compared, Found, Frontier};
 use prone_study::cycle_search::settings;
+use prone_study::cycle_search::trial::Setting;
 use prone_study::optimize::search::{Search, SearchEnd};
 use prone_study::output;
 
@@ -82,8 +83,12 @@ pub(crate) fn frontier(args: &FrontierArgs) -> Result<(), Failure> {
         }
         let height = below(mm, args.margin_mm)?;
         let base = frontier::base(&robot, &settings[0], &cycles, height).map_err(Failure::input)?;
-        let rules = rules_for(objective, height, base);
-        jobs.push(job(&robot, &settings, objective, rules, base, Some(mm))?);
+        let aim = Aim {
+            objective,
+            merge: Merge::Mean,
+            rules: rules_for(objective, height, base),
+        };
+        jobs.push(job(&robot, &settings, aim, base, Some(mm))?);
     }
     let plan = json!({
         "command": "crawl frontier",
@@ -100,7 +105,7 @@ pub(crate) fn frontier(args: &FrontierArgs) -> Result<(), Failure> {
         objective,
         margin_mm: args.margin_mm,
         jobs,
-        confirmation: confirmation_for(objective, &robot)?,
+        confirmation: confirmation_for(objective, steered(args.steerable), &robot)?,
         seed: args.seed,
         runs: args.runs,
         budget: args.budget,
@@ -150,25 +155,24 @@ pub(crate) fn optimize(args: &OptimizeArgs) -> Result<(), Failure> {
         "least_advance_mm": rules.advance * 1e3,
         "demanded_shoulder_nm": args.demanded_shoulder_nm,
         "body_share_percent": args.body_share_percent,
+        "worst_over": args.worst_over,
         "from": base.pull.name,
         "seed": args.seed,
         "runs": args.runs,
         "name": args.name,
     });
-    let jobs = vec![job(
-        &robot,
-        &settings,
+    let aim = Aim {
         objective,
+        merge: merge(args.worst_over.as_deref(), &settings, objective)?,
         rules,
-        base,
-        args.ceiling_mm,
-    )?];
+    };
+    let jobs = vec![job(&robot, &settings, aim, base, args.ceiling_mm)?];
     pursue(&mut Quest {
         robot: &robot,
         objective,
         margin_mm: 0.0,
         jobs,
-        confirmation: confirmation_for(objective, &robot)?,
+        confirmation: confirmation_for(objective, steered(args.steerable), &robot)?,
         seed: args.seed,
         runs: args.runs,
         budget: args.budget.unwrap_or(BUDGET),
@@ -183,6 +187,25 @@ pub(crate) fn optimize(args: &OptimizeArgs) -> Result<(), Failure> {
         json: args.json,
         plan,
     })
+}
+
+/// The mean over settings, or the worst over another cycle's values.
+fn merge(
+    other: Option<&str>,
+    settings: &[Setting],
+    objective: CycleObjective,
+) -> Result<Merge, Failure> {
+    let Some(name) = other else {
+        return Ok(Merge::Mean);
+    };
+    if objective != CycleObjective::Heat {
+        return Err(Failure::Input(anyhow!(
+            "--worst-over goes with --objective heat, which alone looks at several servos"
+        )));
+    }
+    let cycle = passage::find(name)?;
+    Merge::worst_over(settings, objective, &cycle)
+        .map_err(|error| Failure::Input(anyhow!("--worst-over {name}: {error}")))
 }
 
 /// What says how pulls are priced says nothing of cycles.
@@ -262,13 +285,19 @@ fn settings_for(
 
 fn confirmation_for(
     objective: CycleObjective,
+    steered: Steered,
     robot: &LoadedRobot,
 ) -> Result<Vec<Setting>, Failure> {
     let settings = match objective {
         CycleObjective::Heat => settings::for_heat_confirmation(robot),
         CycleObjective::Advance | CycleObjective::Speed => settings::for_confirmation(robot),
     };
-    settings.map_err(Failure::input)
+    let mut settings = settings.map_err(Failure::input)?;
+    if steered == Steered::Yes {
+        let more = settings::for_steering_confirmation(robot).map_err(Failure::input)?;
+        settings.extend(more);
+    }
+    Ok(settings)
 }
 
 fn rules_for(objective: CycleObjective, height: f64, base: &Cycle) -> CycleRules {
@@ -281,15 +310,14 @@ fn rules_for(objective: CycleObjective, height: f64, base: &Cycle) -> CycleRules
 fn job<'a>(
     robot: &LoadedRobot,
     settings: &'a [Setting],
-    objective: CycleObjective,
-    rules: CycleRules,
+    aim: Aim,
     base: &Cycle,
     ceiling_mm: Option<f64>,
 ) -> Result<Job<'a>, Failure> {
     Ok(Job {
         ceiling_mm,
         base: base.pull.name.clone(),
-        hunt: Hunt::new(robot.robot(), settings, objective, rules, base).map_err(Failure::input)?,
+        hunt: Hunt::new(robot.robot(), settings, aim, base).map_err(Failure::input)?,
     })
 }
 

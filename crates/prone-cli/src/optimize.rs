@@ -122,6 +122,7 @@ fn refuse_cycle_options(args: &OptimizeArgs) -> Result<(), Failure> {
             args.demanded_shoulder_nm.is_some(),
         ),
         ("--body-share-percent", args.body_share_percent.is_some()),
+        ("--worst-over", args.worst_over.is_some()),
     ];
     match given.iter().find(|(_, given)| *given) {
         None => Ok(()),

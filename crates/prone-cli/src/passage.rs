@@ -10,8 +10,9 @@ use prone_files::{cycle_file, shipped};
 use prone_sim::LoadedRobot;
 use prone_study::cycle_search::frontier::{self, Hunt};
 use prone_study::cycle_search::passage::{Passage, Tried};
-use prone_study::cycle_search::price::{CycleObjective, Setting};
+use prone_study::cycle_search::price::{Aim, CycleObjective, Merge};
 use prone_study::cycle_search::settings;
+use prone_study::cycle_search::trial::Setting;
 use prone_study::optimize::search::{Search, SearchEnd};
 
 use crate::args::passage::UnderArgs;
@@ -91,15 +92,12 @@ fn search(
     seed: u64,
 ) -> Result<Option<(Cycle, Tried)>, Failure> {
     let base = frontier::base(robot, &settings[0], cycles, height).map_err(Failure::input)?;
-    let rules = settings::advance_rules(height, base);
-    let hunt = Hunt::new(
-        robot.robot(),
-        settings,
-        CycleObjective::Advance,
-        rules,
-        base,
-    )
-    .map_err(Failure::input)?;
+    let aim = Aim {
+        objective: CycleObjective::Advance,
+        merge: Merge::Mean,
+        rules: settings::advance_rules(height, base),
+    };
+    let hunt = Hunt::new(robot.robot(), settings, aim, base).map_err(Failure::input)?;
     let mut search = Search::about_the_middle(seed, 1, args.budget);
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(args.threads.map_or(0, usize::from))

@@ -84,6 +84,9 @@ fn figures_agree_with_one_another() {
     assert!((number(&run, "mm_per_s") - over("time_s")).abs() < 1e-9);
     let efficiency = number(&run, "mm_per_cycle") / number(&run, "stride_mm");
     assert!((number(&run, "stride_efficiency") - efficiency).abs() < 1e-9);
+    let parts = number(&run, "pull_mm_per_cycle") + number(&run, "recovery_mm_per_cycle");
+    let own = cycles.iter().map(|cycle| number(cycle, "advance_mm"));
+    assert!((parts - own.sum::<f64>() / cycles.len() as f64).abs() < 1e-6);
     assert!(
         number(&run, "peak_torque_over_rated") <= 1.0 + 1e-9,
         "effort limits are on"

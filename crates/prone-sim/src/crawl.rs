@@ -2,8 +2,8 @@
 //! robot is past an obstacle.
 //!
 //! The robot begins in the first pull's extension, settled, with its foremost point at x = 0. What
-//! it commands are the postures of [`CheckedCycle`]s, interpolated to a new one every
-//! [`COMMAND_STEP`]. At the end of each pull a [`Pilot`] says which cycle comes next and how it
+//! it commands are the postures of [`CheckedCycle`]s: every [`COMMAND_STEP`] the one that is to be
+//! reached when the next command comes, held until then. At the end of each pull a [`Pilot`] says which cycle comes next and how it
 //! turns; the recovery then leads to that cycle's extension.
 
 mod measure;
@@ -196,6 +196,7 @@ pub fn run(
         crawler
             .pull(&planned, pilot)
             .map_err(|source| broken(done, source))?;
+        crawler.meter.end_pull(&crawler.simulation);
         decision = pilot.decide(&crawler.moment(Stage::Recovery))?;
         let next = Planned::new(world, plan, decision)?;
         crawler
@@ -239,16 +240,17 @@ pub fn check_limbs(world: &World, checked: &CheckedCycle) -> Result<(), CrawlErr
     };
     let pull = checked.pull().duration().seconds();
     let path = checked.recovery_after(checked)?;
-    let mut postures: Vec<JointAngles> = times(pull).map(|time| checked.pull_at(time)).collect();
-    let in_pull = postures.len();
+    let forth: Vec<f64> = times(pull).collect();
     let back: Vec<f64> = times(checked.recovery_seconds()).collect();
-    postures.extend(back.iter().map(|&time| path.at(time)));
+    let pulled = forth.iter().map(|&time| checked.pull_at(time));
+    let recovered = back.iter().map(|&time| path.at(time));
+    let postures: Vec<JointAngles> = pulled.chain(recovered).collect();
     let near = SelfCollision::new(world)?.scan(&postures, 0.0)?.closest;
     if near.closest.distance_m >= -DEEP {
         return Ok(());
     }
-    let place = match near.index.checked_sub(in_pull) {
-        None => format!("{:.2} s into the pull", near.index as f64 * LIMB_STEP),
+    let place = match near.index.checked_sub(forth.len()) {
+        None => format!("{:.2} s into the pull", forth[near.index]),
         Some(index) => format!("{:.2} s into the recovery", back[index]),
     };
     Err(CrawlError::Limbs {

@@ -1,6 +1,6 @@
 //! Searching whole cycles in the locomotion regime.
 //!
-//! [`form`] makes cycles of numbers, [`price`] prices them by simulation, an optimiser of
+//! [`form`] makes cycles of numbers, [`price`] prices them by what [`trial`]s of them come to, an optimiser of
 //! `prone-optim` searches over both.
 
 pub mod form;
@@ -9,6 +9,7 @@ pub mod passage;
 pub mod price;
 pub mod record;
 pub mod settings;
+pub mod trial;
 
 use prone_optim::{Interval, Problem, Score};
 

@@ -36,7 +36,7 @@ Examples:
   prone optimize --objective published --source table.csv --seed 1 --runs 20 --out out/published
   prone optimize --objective published --source table.csv --solver ga --seed 1 --out out/replication
   prone optimize --objective heat --source statics --seed 7 --budget 20000 --out out/heat --resume
-  prone optimize --objective heat --source cycle --from low-175 --seed 1 --runs 6 --out out/efficient
+  prone optimize --objective heat --source cycle --from low-175 --worst-over thesis-nominal --seed 1 --runs 6 --out out/efficient
   prone optimize --objective speed --source cycle --ceiling-mm 180 --seed 1 --out out/fast
 
 The folder appears when all is done: gait.toml (for every other command), result.json, history.csv,
@@ -91,6 +91,10 @@ pub(crate) struct OptimizeArgs {
     /// cycle: largest share of the weight on trunk and legs in the pull, percent [default: any]
     #[arg(long, value_name = "P", value_parser = percent, allow_negative_numbers = true)]
     pub(crate) body_share_percent: Option<f64>,
+    /// cycle, heat: minimise the larger of the heats with soft and with stiff servos, each over that
+    /// of this cycle, instead of their geometric mean
+    #[arg(long, value_name = "GAIT")]
+    pub(crate) worst_over: Option<String>,
     /// Name of the found gait [default: best-OBJECTIVE]
     #[arg(long, value_name = "NAME", value_parser = name)]
     pub(crate) name: Option<String>,

@@ -28,10 +28,26 @@ pub(super) fn print(summary: &CrawlSummary, out: &mut impl Write) -> Result<()> 
     )?;
     writeln!(
         out,
-        "  stride of the planned chain {:.1} mm, of which {:.0} % come about",
-        s.stride_mm,
-        s.stride_efficiency * 100.0
+        "  a cycle: {:.1} mm in the pull, {:.1} mm in the recovery; trunk and legs carry {:.0} % and {:.0} % of the weight",
+        s.pull_mm_per_cycle,
+        s.recovery_mm_per_cycle,
+        s.pull_body_share * 100.0,
+        s.recovery_body_share * 100.0
     )?;
+    match s.pull_efficiency.zip(s.stride_efficiency) {
+        Some((pull, cycle)) => writeln!(
+            out,
+            "  stride of the planned chain {:.1} mm: pulls make {:.0} % of it, whole cycles {:.0} %",
+            s.stride_mm,
+            pull * 100.0,
+            cycle * 100.0
+        )?,
+        None => writeln!(
+            out,
+            "  stride of the planned chain {:.1} mm: the pull does not lead forward",
+            s.stride_mm
+        )?,
+    }
     write!(out, "  highest points, mm:")?;
     for (part, top) in BodyPart::ALL.into_iter().zip(s.top_mm.to_array()) {
         write!(out, " {} {top:.1}", part.name())?;

@@ -121,6 +121,8 @@ pub struct CycleRow {
     pub seconds: f64,
     /// Where the root was when it began.
     pub from: Bearing,
+    /// Where it was when its pull ended and the recovery began.
+    pub pulled: Bearing,
     /// Where it was when it ended.
     pub to: Bearing,
     /// Highest points.
@@ -129,6 +131,8 @@ pub struct CycleRow {
     pub effort: Effort,
     /// Share of the ground's force on trunk and legs during the pull.
     pub body_share: f64,
+    /// The same during the recovery, in which limbs go back and the body may lie.
+    pub recovery_body_share: f64,
 }
 
 /// How far a cycle came, seen from where it began.
@@ -145,12 +149,21 @@ pub struct Advance {
 impl CycleRow {
     /// How far it came.
     pub fn advance(&self) -> Advance {
+        self.advance_to(self.to)
+    }
+
+    /// How far its pull came; the rest of [`Self::advance`] is the recovery's.
+    pub fn pull_advance(&self) -> Advance {
+        self.advance_to(self.pulled)
+    }
+
+    fn advance_to(&self, to: Bearing) -> Advance {
         let (sin, cos) = self.from.yaw.sin_cos();
-        let (dx, dy) = (self.to.x - self.from.x, self.to.y - self.from.y);
+        let (dx, dy) = (to.x - self.from.x, to.y - self.from.y);
         Advance {
             forward: cos * dx + sin * dy,
             left: cos * dy - sin * dx,
-            yaw: wrapped(self.to.yaw - self.from.yaw),
+            yaw: wrapped(to.yaw - self.from.yaw),
         }
     }
 }
@@ -251,7 +264,7 @@ pub(super) struct Meter {
     limits: Vec<(f64, Option<f64>)>,
     begin: Option<f64>,
     cycle: Option<CycleRow>,
-    pull: [f64; 2],
+    loads: [BodyLoad; 2],
     command: JointAngles,
     stage: Stage,
     means: Means,
@@ -265,6 +278,29 @@ pub(super) struct Record {
     pub(super) tops: Tops,
     pub(super) rows: Vec<Row>,
     pub(super) touches: Vec<Touch>,
+}
+
+/// Sums over a stage of what the ground carries.
+#[derive(Debug, Clone, Copy, Default)]
+struct BodyLoad {
+    body: f64,
+    all: f64,
+}
+
+impl BodyLoad {
+    fn add(&mut self, [toe, elbow, torso, leg]: [f64; 4]) {
+        self.body += torso + leg;
+        self.all += toe + elbow + torso + leg;
+    }
+
+    /// Share on trunk and legs; 0 where nothing is carried.
+    fn share(self) -> f64 {
+        if self.all > 0.0 {
+            self.body / self.all
+        } else {
+            0.0
+        }
+    }
 }
 
 /// Sums since the last row.
@@ -310,7 +346,7 @@ impl Meter {
             limits: limits.collect(),
             begin: None,
             cycle: None,
-            pull: [0.0; 2],
+            loads: [BodyLoad::default(); 2],
             command: JointAngles::zero(robot),
             stage: Stage::Recovery,
             means: Means::none(robot.joints.len()),
@@ -320,26 +356,33 @@ impl Meter {
     pub(super) fn begin_cycle(&mut self, simulation: &Simulation<'_>, checked: &CheckedCycle) {
         let zero = *self.begin.get_or_insert(simulation.time());
         let from = bearing(&simulation.ground_from_root());
-        self.pull = [0.0; 2];
+        self.loads = [BodyLoad::default(); 2];
         self.cycle = Some(CycleRow {
             gait: checked.name().to_owned(),
             turn: checked.turn(),
             begin: simulation.time() - zero,
             seconds: 0.0,
             from,
+            pulled: from,
             to: from,
             tops: Tops::NONE,
             effort: Effort::none(simulation.robot()),
             body_share: 0.0,
+            recovery_body_share: 0.0,
         });
+    }
+
+    pub(super) fn end_pull(&mut self, simulation: &Simulation<'_>) {
+        if let Some(cycle) = &mut self.cycle {
+            cycle.pulled = bearing(&simulation.ground_from_root());
+        }
     }
 
     pub(super) fn end_cycle(&mut self, simulation: &Simulation<'_>) {
         let Some(mut cycle) = self.cycle.take() else {
             return;
         };
-        let [body, all] = self.pull;
-        cycle.body_share = if all > 0.0 { body / all } else { 0.0 };
+        [cycle.body_share, cycle.recovery_body_share] = self.loads.map(BodyLoad::share);
         cycle.to = bearing(&simulation.ground_from_root());
         cycle.seconds = cycle.effort.seconds;
         self.record.effort.add(&cycle.effort);
@@ -385,11 +428,7 @@ impl Meter {
             }
         }
         let contact = simulation.ground_contact();
-        if matches!(self.stage, Stage::Pull { .. }) {
-            let [toe, elbow, torso, leg] = contact;
-            self.pull[0] += torso + leg;
-            self.pull[1] += toe + elbow + torso + leg;
-        }
+        self.loads[usize::from(self.stage == Stage::Recovery)].add(contact);
         self.means.steps += 1;
         for (sum, torque) in self
             .means

@@ -30,6 +30,10 @@ pub struct CrawlSummary {
     pub time_s: f64,
     /// Distance over cycles, mm.
     pub mm_per_cycle: f64,
+    /// What of that the pulls made, mm: mean of the cycles' own advances.
+    pub pull_mm_per_cycle: f64,
+    /// What the recoveries made, mm.
+    pub recovery_mm_per_cycle: f64,
     /// Distance over time, mm/s.
     pub mm_per_s: f64,
     /// Displacement to the left of the line of the start, mm.
@@ -44,8 +48,15 @@ pub struct CrawlSummary {
     pub top_mm: TopsMm,
     /// Advance of the shoulder in the planned closed chain, mm.
     pub stride_mm: f64,
-    /// Distance per cycle over that stride.
-    pub stride_efficiency: f64,
+    /// Advance of a pull over that stride; nothing where the plan does not lead forward.
+    pub pull_efficiency: Option<f64>,
+    /// Distance per cycle over that stride: above 1 where recoveries advance too; nothing where the
+    /// plan does not lead forward.
+    pub stride_efficiency: Option<f64>,
+    /// Share of the ground's force on trunk and legs during pulls, mean of the cycles.
+    pub pull_body_share: f64,
+    /// The same during recoveries.
+    pub recovery_body_share: f64,
     /// Largest actuator torque over the maker's effort limit.
     pub peak_torque_over_rated: f64,
     /// Whose that is.
@@ -116,6 +127,8 @@ pub struct CycleSummary {
     pub time_s: f64,
     /// Along the heading with which it began, mm.
     pub advance_mm: f64,
+    /// What of that the pull made, mm.
+    pub pull_advance_mm: f64,
     /// To the left of that, mm.
     pub left_mm: f64,
     /// Change of heading, degrees.
@@ -132,6 +145,8 @@ pub struct CycleSummary {
     pub work_j: f64,
     /// Share of the ground's force on trunk and legs during the pull.
     pub body_share: f64,
+    /// The same during the recovery.
+    pub recovery_body_share: f64,
 }
 
 /// Reduces a record to figures. `until_past` says whether the crawl was to end past the obstacles.
@@ -154,6 +169,11 @@ pub fn of(
         .map_or((0.0, 0.0), |last| (last.x_mm, last.y_mm));
     let cycles = per_cycle.len();
     let mm_per_cycle = distance_mm / cycles.max(1) as f64;
+    let mean = |of: fn(&CycleSummary) -> f64| {
+        per_cycle.iter().map(of).sum::<f64>() / cycles.max(1) as f64
+    };
+    let pull_mm_per_cycle = mean(|cycle| cycle.pull_advance_mm);
+    let of_stride = |advance_mm: f64| (stride_mm > 0.0).then(|| advance_mm / stride_mm);
     let (peak, peak_joint) = crawl.effort.peak_over_limit(robot);
     let (saturated, saturated_joint) = longest_saturated(crawl);
     let metres = (distance_mm > 0.0).then_some(distance_mm / 1e3);
@@ -169,6 +189,8 @@ pub fn of(
         distance_mm,
         time_s: crawl.effort.seconds,
         mm_per_cycle,
+        pull_mm_per_cycle,
+        recovery_mm_per_cycle: mean(|cycle| cycle.advance_mm - cycle.pull_advance_mm),
         mm_per_s: distance_mm / crawl.effort.seconds,
         lateral_mm,
         yaw_deg: per_cycle.iter().map(|cycle| cycle.yaw_deg).sum(),
@@ -176,7 +198,10 @@ pub fn of(
         contacts: contacts(world, &crawl.touches),
         top_mm: TopsMm::of(&crawl.tops),
         stride_mm,
-        stride_efficiency: mm_per_cycle / stride_mm,
+        pull_efficiency: of_stride(pull_mm_per_cycle),
+        stride_efficiency: of_stride(mm_per_cycle),
+        pull_body_share: mean(|cycle| cycle.body_share),
+        recovery_body_share: mean(|cycle| cycle.recovery_body_share),
         peak_torque_over_rated: peak,
         peak_torque_joint: robot.joints[peak_joint.0].name.clone(),
         demanded_peak_shoulder_nm: demanded[0].max(demanded[1]),
@@ -246,6 +271,7 @@ fn per_cycle(robot: &Robot, cycles: &[CycleRow]) -> Vec<CycleSummary> {
             begin_s: row.begin,
             time_s: row.seconds,
             advance_mm: advance.forward * 1e3,
+            pull_advance_mm: row.pull_advance().forward * 1e3,
             left_mm: advance.left * 1e3,
             yaw_deg: advance.yaw.to_degrees(),
             x_mm: (cos * dx + sin * dy) * 1e3,
@@ -254,6 +280,7 @@ fn per_cycle(robot: &Robot, cycles: &[CycleRow]) -> Vec<CycleSummary> {
             heat_s: row.effort.heat(robot),
             work_j: row.effort.work(),
             body_share: row.body_share,
+            recovery_body_share: row.recovery_body_share,
         }
     });
     rows.collect()

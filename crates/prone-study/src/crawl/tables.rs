@@ -25,7 +25,14 @@ pub(super) fn cycles(summary: &CrawlSummary) -> Result<Vec<u8>, csv::Error> {
     .map(String::from)
     .to_vec();
     header.extend(tops());
-    header.extend(["heat_s", "work_j", "body_share"].map(String::from));
+    let last = [
+        "heat_s",
+        "work_j",
+        "body_share",
+        "pull_advance_mm",
+        "recovery_body_share",
+    ];
+    header.extend(last.map(String::from));
     table.write_record(&header)?;
     for row in &summary.per_cycle {
         let mut cells = vec![row.cycle.to_string()];
@@ -41,7 +48,14 @@ pub(super) fn cycles(summary: &CrawlSummary) -> Result<Vec<u8>, csv::Error> {
         ];
         let figures = figures.into_iter().chain(row.top_mm.to_array());
         cells.extend(figures.map(|figure| number(figure, 3)));
-        cells.extend([row.heat_s, row.work_j, row.body_share].map(|figure| number(figure, 5)));
+        let last = [
+            row.heat_s,
+            row.work_j,
+            row.body_share,
+            row.pull_advance_mm,
+            row.recovery_body_share,
+        ];
+        cells.extend(last.map(|figure| number(figure, 5)));
         table.write_record(&cells)?;
     }
     finish(table)

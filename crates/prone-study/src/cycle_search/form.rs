@@ -55,6 +55,13 @@ enum PullCurve {
 /// and the last and is drawn towards the second.
 const CONTROLS: usize = 3;
 
+/// Control points of the quadratic B-spline that meets a curve at its ends and in its middle: the
+/// curve itself, where it is one of these or straight.
+fn controls(curve: &Curve) -> [f64; CONTROLS] {
+    let [begin, middle, end] = [0.0, 0.5, 1.0].map(|s| curve.value(s));
+    [begin, 2.0 * middle - 0.5 * (begin + end), end]
+}
+
 /// Why there is no box about a cycle.
 #[derive(Debug, thiserror::Error)]
 pub enum CycleFormError {
@@ -128,10 +135,9 @@ impl CycleForm {
         curve: &Curve,
         within: Option<Range>,
     ) -> Result<(), CycleFormError> {
-        for control in 0..CONTROLS {
-            let s = control as f64 / (CONTROLS - 1) as f64;
+        for (control, value) in controls(curve).into_iter().enumerate() {
             let variable = Variable::Curve(which.clone(), control);
-            self.add(variable, curve.value(s), CURVE_REACH, within.unwrap_or(ANY))?;
+            self.add(variable, value, CURVE_REACH, within.unwrap_or(ANY))?;
         }
         Ok(())
     }
@@ -265,12 +271,13 @@ mod tests {
 
     use super::*;
 
-    /// The middle of the box crawls the middle's cycle: the same postures, named everywhere.
+    /// The middle of the box crawls the middle's cycle, straight curves or found ones: the same
+    /// postures, named everywhere.
     #[test]
     fn the_middle_of_the_box_is_the_cycle() {
         let loaded = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
         let robot = loaded.robot();
-        for name in ["low-175", "low-165"] {
+        for name in ["low-175", "low-165", "efficient", "far-200"] {
             let cycle = shipped::cycle(name).unwrap().unwrap();
             let form = CycleForm::about(robot, &cycle).unwrap();
             let point = form.point(&form.middle);
@@ -299,10 +306,9 @@ mod tests {
     }
 
     impl CycleForm {
-        /// The numbers of a cycle whose curves are straight.
+        /// The numbers of a cycle.
         fn point(&self, cycle: &Cycle) -> Vec<f64> {
-            let at =
-                |curve: &Curve, control: usize| curve.value(control as f64 / (CONTROLS - 1) as f64);
+            let at = |curve: &Curve, control: usize| controls(curve)[control];
             let numbers = self.variables.iter().map(|variable| match variable {
                 Variable::Curve(PullCurve::Knee, control) => at(&cycle.pull.knee, *control),
                 Variable::Curve(PullCurve::Hip, control) => at(&cycle.pull.hip, *control),

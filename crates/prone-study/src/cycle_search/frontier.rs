@@ -7,10 +7,9 @@ use serde::{Deserialize, Serialize};
 
 use super::CycleProblem;
 use super::form::{CycleForm, CycleFormError};
-use super::price::{
-    CycleObjective, CyclePrice, CyclePricer, CycleRules, PricerError, Role, Setting, Trial, try_out,
-};
+use super::price::{Aim, CyclePrice, CyclePricer, PricerError};
 use super::settings::{HOLDS, SettingError};
+use super::trial::{Role, Setting, Trial, try_out};
 use crate::optimize::search::{Search, SearchEnd};
 
 /// Why nothing can be said.
@@ -47,13 +46,12 @@ impl<'a> Hunt<'a> {
     pub fn new(
         robot: &Robot,
         settings: &'a [Setting],
-        objective: CycleObjective,
-        rules: CycleRules,
+        aim: Aim,
         base: &Cycle,
     ) -> Result<Self, FrontierError> {
         Ok(Self {
             form: CycleForm::about(robot, base)?,
-            pricer: CyclePricer::new(settings, objective, rules, base)?,
+            pricer: CyclePricer::new(settings, aim, base)?,
         })
     }
 
@@ -101,6 +99,8 @@ pub struct ConfirmedSetting {
     pub mm_per_cycle: Option<f64>,
     /// Speed, mm/s.
     pub mm_per_s: Option<f64>,
+    /// Change of heading per cycle, degrees, positive to the left.
+    pub yaw_deg: Option<f64>,
     /// Highest point, mm.
     pub top_mm: Option<f64>,
     /// Part of the body that reaches it.
@@ -127,7 +127,9 @@ pub fn confirm(settings: &[Setting], cycle: &Cycle, ceiling: f64) -> Confirmed {
             Ok(trial) => {
                 let advance = *first.get_or_insert(trial.advance);
                 let kept = trial.advance / advance;
-                let holding = trial.top.0 < ceiling && kept >= HOLDS && trial.advance > 0.0;
+                let enough = kept >= setting.role.keep().unwrap_or(HOLDS);
+                let directed = setting.role.misdirected(&trial) <= 0.0;
+                let holding = trial.top.0 < ceiling && enough && directed && trial.advance > 0.0;
                 holds &= setting.role == Role::Beside || holding;
                 row(setting, &trial, kept)
             }
@@ -149,6 +151,7 @@ fn row(setting: &Setting, trial: &Trial, kept: f64) -> ConfirmedSetting {
         setting: setting.name.clone(),
         mm_per_cycle: Some(trial.advance * 1e3),
         mm_per_s: Some(trial.advance / trial.seconds * 1e3),
+        yaw_deg: Some(trial.yaw.to_degrees()),
         top_mm: Some(trial.top.0 * 1e3),
         top_part: Some(trial.top.1.to_owned()),
         heat_per_metre_s: Some(trial.heat_per_metre).filter(|heat| heat.is_finite()),
@@ -164,6 +167,7 @@ fn refused(setting: &Setting, reason: String) -> ConfirmedSetting {
         setting: setting.name.clone(),
         mm_per_cycle: None,
         mm_per_s: None,
+        yaw_deg: None,
         top_mm: None,
         top_part: None,
         heat_per_metre_s: None,

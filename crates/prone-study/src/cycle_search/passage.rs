@@ -7,7 +7,7 @@ use prone::gait::cycle::Cycle;
 use prone::robot::{ContactGroup, JointAngles, Robot};
 use serde::Serialize;
 
-use super::price::{Setting, Trial, try_out};
+use super::trial::{Setting, Trial, try_out};
 
 /// An answer.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -1,19 +1,21 @@
 //! What a whole cycle costs, by simulation in the locomotion regime.
 //!
 //! A cycle is crawled in one or more settings (friction, servo, time scale). In the main ones the
-//! value is averaged: heat per metre (geometrically: with stiff servos it is five times that with
-//! soft ones, and a percent is a percent), advance per cycle or speed. In all of them the rules are
-//! held: nothing higher than the ceiling, enough advance, and where [`CycleRules`] ask for them no
-//! more of a shoulder's servo and no more weight on trunk and legs in the pull. What is broken adds up, each in shares of its limit, and compares
-//! before the value. The settings are taken in order, and those after one that breaks a rule are
-//! not simulated: each counts as [`UNTRIED`].
+//! values are merged ([`Merge`]): heat per metre, advance per cycle or speed. In all of them the
+//! rules are held: nothing higher than the ceiling, enough advance, and where [`CycleRules`] ask for
+//! them no more of a shoulder's servo and no more weight on trunk and legs in the pull. What is
+//! broken adds up, each in shares of its limit, and compares before the value. The settings are
+//! taken in order, and those after one that breaks a rule are not simulated: each counts as
+//! [`UNTRIED`].
 
 use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale};
-use prone::gait::{Clamp, LimitsPolicy, PhaseDuration};
+use prone::gait::{Clamp, LimitsPolicy};
 use prone::robot::{JointAngles, JointId};
-use prone_sim::World;
-use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, Detail, End, Straight};
+use prone_sim::crawl::CrawlError;
+use prone_sim::regime::Servo;
 use prone_sim::self_collision::{SelfCollision, SelfCollisionError};
+
+use super::trial::{Role, Setting, Trial, try_out};
 
 /// Violation of a setting that was not simulated, and of a cycle that cannot be crawled: more than
 /// what is usually broken in one that was.
@@ -39,42 +41,59 @@ impl CycleObjective {
             Self::Speed => "speed",
         }
     }
+
+    fn value(self, trial: &Trial) -> f64 {
+        match self {
+            Self::Heat => trial.heat_per_metre,
+            Self::Advance => -trial.advance,
+            Self::Speed => -trial.advance / trial.seconds,
+        }
+    }
 }
 
-/// One way to crawl a cycle.
-#[derive(Debug, Clone)]
-pub struct Setting {
-    /// In a word, for records.
-    pub name: String,
-    /// Floor, servos, limits.
-    pub world: World,
-    /// How slowly.
-    pub scale: TimeScale,
-    /// How long the pull lasts instead, before the scale.
-    pub pull: Option<PhaseDuration>,
-    /// What every commanded angle is off by, rad.
-    pub offsets: Option<JointAngles>,
-    /// How many cycles; the last one is measured.
-    pub cycles: usize,
-    /// Turn command, in shares of the cycle's limit; the first pull is straight all the same.
-    pub turn: f64,
-    /// What it is for.
-    pub role: Role,
+/// How the values of the settings in which they count become one.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Merge {
+    /// Their mean; of heat the geometric one: with stiff servos it is five times that with soft
+    /// ones, and a percent is a percent.
+    Mean,
+    /// The largest, each over what another cycle has in that setting; these values, in the order of
+    /// the settings.
+    WorstOver(Vec<f64>),
 }
 
-/// What a setting is for.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Role {
-    /// Its value counts.
-    Value,
-    /// It has to advance by at least that share of the first setting's advance.
-    Keep(f64),
-    /// It has to turn to the left by at least that angle a cycle, rad.
-    Turn(f64),
-    /// Nothing is asked of it; what it does is reported.
-    Beside,
-    /// It may not turn by more than that angle a cycle, rad, and keeps half of the advance.
-    Straight(f64),
+impl Merge {
+    /// The worst over a cycle's own values.
+    ///
+    /// # Errors
+    /// [`CrawlError`] where that cycle cannot be crawled in one of the settings.
+    pub fn worst_over(
+        settings: &[Setting],
+        objective: CycleObjective,
+        cycle: &Cycle,
+    ) -> Result<Self, CrawlError> {
+        let valued = settings
+            .iter()
+            .filter(|setting| setting.role == Role::Value);
+        let values = valued.map(|setting| Ok(objective.value(&try_out(setting, cycle)?)));
+        values.collect::<Result<_, _>>().map(Self::WorstOver)
+    }
+
+    /// One value; NaN where there is none.
+    fn one(&self, objective: CycleObjective, values: &[f64]) -> f64 {
+        let mean = |sum: f64| sum / values.len() as f64;
+        match (self, objective) {
+            (Self::Mean, CycleObjective::Heat) => {
+                mean(values.iter().map(|value| value.ln()).sum()).exp()
+            }
+            (Self::Mean, _) => mean(values.iter().sum()),
+            (Self::WorstOver(others), _) => values
+                .iter()
+                .zip(others)
+                .map(|(value, other)| value / other)
+                .fold(f64::NAN, f64::max),
+        }
+    }
 }
 
 /// What holds in every setting.
@@ -88,7 +107,9 @@ pub struct CycleRules {
     pub body_share: f64,
     /// Largest duration of a cycle, s.
     pub seconds: f64,
-    /// Largest torque that a shoulder's servo demands, N·m.
+    /// Largest torque that a shoulder's servo demands, N·m, with the robot's own servo gains: a
+    /// servo that is five times as stiff asks for five times as much of the same lag, and no gait
+    /// would be left.
     pub demanded_shoulder: f64,
 }
 
@@ -103,35 +124,21 @@ impl CycleRules {
     };
 }
 
-/// What a cycle came to in one setting; the last cycle of it.
+/// What a search goes after.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Trial {
-    /// The setting's name.
-    pub setting: String,
-    /// Advance along the heading, m.
-    pub advance: f64,
-    /// How long it took, s.
-    pub seconds: f64,
-    /// Highest point of all cycles, m, and of which part of the body.
-    pub top: (f64, &'static str),
-    /// ∫ Σ (τ / nominal torque)² dt per metre, s/m.
-    pub heat_per_metre: f64,
-    /// Largest torque over the effort limit, and whose.
-    pub peak_over_limit: (f64, String),
-    /// Largest torque that a shoulder's servo demands, N·m.
-    pub demanded_shoulder: f64,
-    /// Share of the time for which it demands more than the effort limit.
-    pub shoulder_saturated: f64,
-    /// Share of the weight on trunk and legs in the pull.
-    pub body_share: f64,
-    /// Change of heading, rad.
-    pub yaw: f64,
+pub struct Aim {
+    /// What is minimised.
+    pub objective: CycleObjective,
+    /// Of several settings.
+    pub merge: Merge,
+    /// What holds.
+    pub rules: CycleRules,
 }
 
 /// A cycle's price.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CyclePrice {
-    /// Mean of the objective where values count; NaN where the cycle could not be crawled.
+    /// The objective where values count, merged; NaN where the cycle could not be crawled.
     pub value: f64,
     /// What is broken, in shares of the limits.
     pub violation: f64,
@@ -156,8 +163,7 @@ pub enum PricerError {
 /// Prices cycles.
 pub struct CyclePricer<'a> {
     settings: &'a [Setting],
-    objective: CycleObjective,
-    rules: CycleRules,
+    aim: Aim,
     allowed_clamps: Vec<Clamp>,
     collision: SelfCollision,
 }
@@ -169,8 +175,7 @@ impl<'a> CyclePricer<'a> {
     /// [`PricerError`] where the base cannot be crawled.
     pub fn new(
         settings: &'a [Setting],
-        objective: CycleObjective,
-        rules: CycleRules,
+        aim: Aim,
         base: &Cycle,
     ) -> Result<Self, PricerError> {
         let first = settings.first().ok_or(PricerError::NoSettings)?;
@@ -178,8 +183,7 @@ impl<'a> CyclePricer<'a> {
         let checked = CheckedCycle::plan(world.robot(), world.stops(), base, 0.0, TimeScale::ONE)?;
         Ok(Self {
             settings,
-            objective,
-            rules,
+            aim,
             allowed_clamps: checked.clamps().to_vec(),
             collision: SelfCollision::new(world)?,
         })
@@ -201,7 +205,7 @@ impl<'a> CyclePricer<'a> {
             violation: self.broken_in_plan(cycle),
             trials: Vec::new(),
         };
-        let (mut sum, mut count) = (0.0, 0.0);
+        let mut values = Vec::new();
         for (index, setting) in self.settings.iter().enumerate() {
             let left = (self.settings.len() - index) as f64;
             if price.violation > 0.0 && thoroughness == Thoroughness::UntilBroken {
@@ -221,29 +225,12 @@ impl<'a> CyclePricer<'a> {
                 .map_or(trial.advance, |first: &Trial| first.advance);
             price.violation += self.broken(setting, &trial, first);
             if setting.role == Role::Value {
-                sum += match self.objective {
-                    CycleObjective::Heat => self.value(&trial).ln(),
-                    CycleObjective::Advance | CycleObjective::Speed => self.value(&trial),
-                };
-                count += 1.0;
+                values.push(self.aim.objective.value(&trial));
             }
             price.trials.push(trial);
         }
-        if count > 0.0 {
-            price.value = match self.objective {
-                CycleObjective::Heat => (sum / count).exp(),
-                CycleObjective::Advance | CycleObjective::Speed => sum / count,
-            };
-        }
+        price.value = self.aim.merge.one(self.aim.objective, &values);
         price
-    }
-
-    fn value(&self, trial: &Trial) -> f64 {
-        match self.objective {
-            CycleObjective::Heat => trial.heat_per_metre,
-            CycleObjective::Advance => -trial.advance,
-            CycleObjective::Speed => -trial.advance / trial.seconds,
-        }
     }
 
     /// What is broken before anything moves.
@@ -254,7 +241,7 @@ impl<'a> CyclePricer<'a> {
         let world = &first.world;
         let robot = world.robot();
         let over = |value: f64, limit: f64| (value / limit - 1.0).max(0.0);
-        let mut broken = over(cycle.duration(TimeScale::ONE), self.rules.seconds);
+        let mut broken = over(cycle.duration(TimeScale::ONE), self.aim.rules.seconds);
         let clamping = Cycle {
             pull: prone::gait::Gait {
                 limits: LimitsPolicy::Clamp,
@@ -294,25 +281,25 @@ impl<'a> CyclePricer<'a> {
     }
 
     fn broken(&self, setting: &Setting, trial: &Trial, first_advance: f64) -> f64 {
-        let rules = &self.rules;
+        let rules = &self.aim.rules;
         let over = |value: f64, limit: f64| (value / limit - 1.0).max(0.0);
-        let least = match setting.role {
-            Role::Value => rules.advance,
-            Role::Keep(share) => share * first_advance.max(rules.advance),
-            Role::Beside => return 0.0,
-            Role::Turn(_) | Role::Straight(_) => 0.5 * first_advance.max(rules.advance),
+        if setting.role == Role::Beside {
+            return 0.0;
+        }
+        let least = match setting.role.keep() {
+            None => rules.advance,
+            Some(share) => share * first_advance.max(rules.advance),
         };
         let mut broken = (1.0 - trial.advance / least).max(0.0);
-        broken += match setting.role {
-            Role::Turn(angle) => (1.0 - trial.yaw / angle).max(0.0),
-            Role::Straight(angle) => over(trial.yaw.abs(), angle),
-            Role::Value | Role::Keep(_) | Role::Beside => 0.0,
-        };
+        broken += setting.role.misdirected(trial);
         broken += over(trial.top.0, rules.ceiling);
         if rules.body_share < 1.0 && setting.role == Role::Value {
             broken += (trial.body_share - rules.body_share).max(0.0);
         }
-        broken + over(trial.demanded_shoulder, rules.demanded_shoulder)
+        if setting.world.regime().servo == Servo::Robot {
+            broken += over(trial.demanded_shoulder, rules.demanded_shoulder);
+        }
+        broken
     }
 }
 
@@ -351,79 +338,3 @@ fn collides(collision: &SelfCollision, checked: &CheckedCycle) -> f64 {
 
 /// Postures of a pull that are looked at for collisions; three times as many of a recovery.
 const PLAN_SAMPLES: usize = 8;
-
-/// Crawls a cycle in one setting.
-///
-/// # Errors
-/// [`CrawlError`].
-pub fn try_out(setting: &Setting, cycle: &Cycle) -> Result<Trial, CrawlError> {
-    let cycle = Cycle {
-        pull_duration: setting.pull.unwrap_or(cycle.pull_duration),
-        ..cycle.clone()
-    };
-    let cycles = std::slice::from_ref(&cycle);
-    let plan = CrawlPlan {
-        cycles,
-        scale: setting.scale,
-        end: End::Cycles(setting.cycles),
-        offsets: setting.offsets.clone(),
-        detail: Detail::Sums,
-    };
-    let limit = cycle
-        .steering
-        .as_ref()
-        .map_or(0.0, |steering| steering.limit);
-    let mut pilot = Straight {
-        turn: setting.turn * limit,
-    };
-    let crawl = crawl::run(&setting.world, &plan, &mut pilot)?;
-    Ok(measured(setting, &crawl))
-}
-
-fn measured(setting: &Setting, crawl: &Crawl) -> Trial {
-    let robot = setting.world.robot();
-    let Some(last) = crawl.cycles.last() else {
-        return nothing(setting);
-    };
-    let advance = last.advance();
-    let (peak, joint) = last.effort.peak_over_limit(robot);
-    let shoulders = robot.chain.sides().map(|side| side.shoulder);
-    let demanded = shoulders.map(|id| last.effort.joints[id.0].demanded_peak);
-    let saturated = shoulders.map(|id| last.effort.joints[id.0].saturated);
-    Trial {
-        setting: setting.name.clone(),
-        advance: advance.forward,
-        seconds: last.seconds,
-        top: (crawl.tops.highest(), crawl.tops.part().name()),
-        heat_per_metre: per_metre(last.effort.heat(robot), advance.forward),
-        peak_over_limit: (peak, robot.joints[joint.0].name.clone()),
-        demanded_shoulder: demanded[0].max(demanded[1]),
-        shoulder_saturated: saturated[0].max(saturated[1]) / last.seconds,
-        body_share: last.body_share,
-        yaw: advance.yaw,
-    }
-}
-
-/// A cost per metre; of what does not advance, infinite.
-fn per_metre(cost: f64, advance: f64) -> f64 {
-    if advance > 0.0 {
-        cost / advance
-    } else {
-        f64::INFINITY
-    }
-}
-
-fn nothing(setting: &Setting) -> Trial {
-    Trial {
-        setting: setting.name.clone(),
-        advance: 0.0,
-        seconds: 0.0,
-        top: (f64::INFINITY, ""),
-        heat_per_metre: f64::INFINITY,
-        peak_over_limit: (0.0, String::new()),
-        demanded_shoulder: 0.0,
-        shoulder_saturated: 0.0,
-        body_share: 0.0,
-        yaw: 0.0,
-    }
-}

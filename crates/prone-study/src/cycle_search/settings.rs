@@ -11,7 +11,8 @@ use prone_optim::Random;
 use prone_sim::regime::Servo;
 use prone_sim::{LoadedRobot, Regime, World, WorldError};
 
-use super::price::{CycleRules, Role, Setting};
+use super::price::CycleRules;
+use super::trial::{Role, Setting};
 
 /// Friction of the locomotion regime and the span over which a cycle has to hold.
 const SLIPPERY: f64 = 0.4;
@@ -122,6 +123,18 @@ pub fn for_advance(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
 /// # Errors
 /// [`SettingError`].
 pub fn for_steering(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
+    steering(robot, KEEP, OFF_SEED)
+}
+
+/// The same for a confirmation, with joints off by other angles.
+///
+/// # Errors
+/// [`SettingError`].
+pub fn for_steering_confirmation(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
+    steering(robot, HOLDS, OFF_SEED + UNEVEN.len() as u64)
+}
+
+fn steering(robot: &LoadedRobot, keep: f64, seed: u64) -> Result<Vec<Setting>, SettingError> {
     let maker = maker(robot);
     let turning = maker.make("turning", maker.regime, 1.0, 3, Role::Turn(TURN))?;
     let mut settings = vec![Setting {
@@ -132,10 +145,11 @@ pub fn for_steering(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
         let mut uneven = Scene::level();
         uneven.floor.friction = Some(SideFriction { left, right });
         let name = format!("friction {left} and {right}, joints off");
-        let straight = maker.make(&name, maker.regime, 1.0, 3, Role::Straight(DRIFT))?;
+        let role = Role::Straight { yaw: DRIFT, keep };
+        let straight = maker.make(&name, maker.regime, 1.0, 3, role)?;
         settings.push(Setting {
             world: World::in_scene(robot, maker.regime, &uneven)?,
-            offsets: Some(offsets(robot.robot(), OFF, OFF_SEED + index as u64)),
+            offsets: Some(offsets(robot.robot(), OFF, seed + index as u64)),
             ..straight
         });
     }

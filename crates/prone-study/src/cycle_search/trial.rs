@@ -1,0 +1,173 @@
+//! One way to crawl a cycle, and what the cycle comes to in it.
+
+use prone::gait::PhaseDuration;
+use prone::gait::cycle::{Cycle, TimeScale};
+use prone::robot::JointAngles;
+use prone_sim::World;
+use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, Detail, End, Straight};
+
+/// One way to crawl a cycle.
+#[derive(Debug, Clone)]
+pub struct Setting {
+    /// In a word, for records.
+    pub name: String,
+    /// Floor, servos, limits.
+    pub world: World,
+    /// How slowly.
+    pub scale: TimeScale,
+    /// How long the pull lasts instead, before the scale.
+    pub pull: Option<PhaseDuration>,
+    /// What every commanded angle is off by, rad.
+    pub offsets: Option<JointAngles>,
+    /// How many cycles; the last one is measured.
+    pub cycles: usize,
+    /// Turn command, in shares of the cycle's limit; the first pull is straight all the same.
+    pub turn: f64,
+    /// What it is for.
+    pub role: Role,
+}
+
+/// What a setting is for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Role {
+    /// Its value counts.
+    Value,
+    /// It has to advance by at least that share of the first setting's advance.
+    Keep(f64),
+    /// It has to turn to the left by at least that angle a cycle, rad.
+    Turn(f64),
+    /// Nothing is asked of it; what it does is reported.
+    Beside,
+    /// It may not turn by more than an angle a cycle, rad, and has to advance by at least a share of
+    /// the first setting's advance.
+    Straight {
+        /// The angle, rad.
+        yaw: f64,
+        /// The share.
+        keep: f64,
+    },
+}
+
+impl Role {
+    /// Share of the first setting's advance that is asked for, where one is.
+    pub const fn keep(self) -> Option<f64> {
+        match self {
+            Self::Keep(share) | Self::Straight { keep: share, .. } => Some(share),
+            Self::Turn(_) => Some(TURNING),
+            Self::Value | Self::Beside => None,
+        }
+    }
+
+    /// By how much a trial turns too much or too little, in shares of the limit.
+    pub fn misdirected(self, trial: &Trial) -> f64 {
+        match self {
+            Self::Turn(angle) => (1.0 - trial.yaw / angle).max(0.0),
+            Self::Straight { yaw, .. } => (trial.yaw.abs() / yaw - 1.0).max(0.0),
+            Self::Value | Self::Keep(_) | Self::Beside => 0.0,
+        }
+    }
+}
+
+/// Share of the advance that is left where it turns as hard as it can.
+const TURNING: f64 = 0.5;
+
+/// What a cycle came to in one setting; the last cycle of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Trial {
+    /// The setting's name.
+    pub setting: String,
+    /// Advance along the heading, m.
+    pub advance: f64,
+    /// How long it took, s.
+    pub seconds: f64,
+    /// Highest point of all cycles, m, and of which part of the body.
+    pub top: (f64, &'static str),
+    /// ∫ Σ (τ / nominal torque)² dt per metre, s/m.
+    pub heat_per_metre: f64,
+    /// Largest torque over the effort limit, and whose.
+    pub peak_over_limit: (f64, String),
+    /// Largest torque that a shoulder's servo demands, N·m.
+    pub demanded_shoulder: f64,
+    /// Share of the time for which it demands more than the effort limit.
+    pub shoulder_saturated: f64,
+    /// Share of the weight on trunk and legs in the pull.
+    pub body_share: f64,
+    /// Change of heading, rad.
+    pub yaw: f64,
+}
+
+/// Crawls a cycle in one setting.
+///
+/// # Errors
+/// [`CrawlError`].
+pub fn try_out(setting: &Setting, cycle: &Cycle) -> Result<Trial, CrawlError> {
+    let cycle = Cycle {
+        pull_duration: setting.pull.unwrap_or(cycle.pull_duration),
+        ..cycle.clone()
+    };
+    let cycles = std::slice::from_ref(&cycle);
+    let plan = CrawlPlan {
+        cycles,
+        scale: setting.scale,
+        end: End::Cycles(setting.cycles),
+        offsets: setting.offsets.clone(),
+        detail: Detail::Sums,
+    };
+    let limit = cycle
+        .steering
+        .as_ref()
+        .map_or(0.0, |steering| steering.limit);
+    let mut pilot = Straight {
+        turn: setting.turn * limit,
+    };
+    let crawl = crawl::run(&setting.world, &plan, &mut pilot)?;
+    Ok(measured(setting, &crawl))
+}
+
+fn measured(setting: &Setting, crawl: &Crawl) -> Trial {
+    let robot = setting.world.robot();
+    let Some(last) = crawl.cycles.last() else {
+        return nothing(setting);
+    };
+    let advance = last.advance();
+    let (peak, joint) = last.effort.peak_over_limit(robot);
+    let shoulders = robot.chain.sides().map(|side| side.shoulder);
+    let demanded = shoulders.map(|id| last.effort.joints[id.0].demanded_peak);
+    let saturated = shoulders.map(|id| last.effort.joints[id.0].saturated);
+    Trial {
+        setting: setting.name.clone(),
+        advance: advance.forward,
+        seconds: last.seconds,
+        top: (crawl.tops.highest(), crawl.tops.part().name()),
+        heat_per_metre: per_metre(last.effort.heat(robot), advance.forward),
+        peak_over_limit: (peak, robot.joints[joint.0].name.clone()),
+        demanded_shoulder: demanded[0].max(demanded[1]),
+        shoulder_saturated: saturated[0].max(saturated[1]) / last.seconds,
+        body_share: last.body_share,
+        yaw: advance.yaw,
+    }
+}
+
+/// A cost per metre; of what does not advance, infinite.
+fn per_metre(cost: f64, advance: f64) -> f64 {
+    if advance > 0.0 {
+        cost / advance
+    } else {
+        f64::INFINITY
+    }
+}
+
+fn nothing(setting: &Setting) -> Trial {
+    Trial {
+        setting: setting.name.clone(),
+        advance: 0.0,
+        seconds: 0.0,
+        top: (f64::INFINITY, ""),
+        heat_per_metre: f64::INFINITY,
+        peak_over_limit: (0.0, String::new()),
+        demanded_shoulder: 0.0,
+        shoulder_saturated: 0.0,
+        body_share: 0.0,
+        yaw: 0.0,
+    }
+}
