@@ -338,3 +338,46 @@ fn collides(collision: &SelfCollision, checked: &CheckedCycle) -> f64 {
 
 /// Postures of a pull that are looked at for collisions; three times as many of a recovery.
 const PLAN_SAMPLES: usize = 8;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn heats_merge_geometrically_or_to_the_worst_of_shares() {
+        let mean = Merge::Mean.one(CycleObjective::Heat, &[4.0, 9.0]);
+        assert!((mean - 6.0).abs() < 1e-12, "{mean}");
+        assert!((Merge::Mean.one(CycleObjective::Advance, &[-0.1, -0.3]) + 0.2).abs() < 1e-12);
+        let over = Merge::WorstOver(vec![8.0, 90.0]);
+        assert!((over.one(CycleObjective::Heat, &[4.0, 9.0]) - 0.5).abs() < 1e-12);
+        assert!((over.one(CycleObjective::Heat, &[4.0, 81.0]) - 0.9).abs() < 1e-12);
+    }
+
+    /// A cycle over itself is 1, whatever the servos.
+    #[test]
+    fn a_cycle_is_as_warm_as_itself() {
+        use prone_files::shipped;
+        use prone_sim::{LoadedRobot, RobotFiles};
+
+        let robot = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
+        let cycle = shipped::cycle("thesis-nominal").unwrap().unwrap();
+        let settings = super::super::settings::for_heat(&robot).unwrap();
+        let merge = Merge::worst_over(&settings, CycleObjective::Heat, &cycle).unwrap();
+        let aim = Aim {
+            objective: CycleObjective::Heat,
+            merge,
+            rules: CycleRules {
+                demanded_shoulder: 1.0,
+                ..CycleRules::FREE
+            },
+        };
+        let price = CyclePricer::new(&settings, aim, &cycle).unwrap().quote(&cycle);
+        assert!((price.value - 1.0).abs() < 1e-12, "{}", price.value);
+        // Stiff servos demand several times as much; only the robot's own are held to the rule.
+        let [own, stiff] = &price.trials[..] else {
+            panic!("two servos");
+        };
+        assert!(stiff.demanded_shoulder > 2.0 * own.demanded_shoulder);
+        assert!((price.violation - (own.demanded_shoulder - 1.0)).abs() < 1e-12);
+    }
+}
