@@ -125,9 +125,10 @@ pub(crate) fn optimize(args: &OptimizeArgs) -> Result<(), Failure> {
         ObjectiveName::Heat => CycleObjective::Heat,
         ObjectiveName::Advance => CycleObjective::Advance,
         ObjectiveName::Speed => CycleObjective::Speed,
+        ObjectiveName::Peak => CycleObjective::Peak,
         _ => {
             return Err(Failure::Input(anyhow!(
-                "--source cycle searches --objective heat, advance or speed"
+                "--source cycle searches --objective heat, peak, advance or speed"
             )));
         }
     };
@@ -144,6 +145,7 @@ pub(crate) fn optimize(args: &OptimizeArgs) -> Result<(), Failure> {
         body_share: args
             .body_share_percent
             .map_or(usual.body_share, |percent| percent / 100.0),
+        heat: args.most_heat.unwrap_or(usual.heat),
         ..usual
     };
     let plan = json!({
@@ -156,6 +158,7 @@ pub(crate) fn optimize(args: &OptimizeArgs) -> Result<(), Failure> {
         "demanded_shoulder_nm": args.demanded_shoulder_nm,
         "body_share_percent": args.body_share_percent,
         "worst_over": args.worst_over,
+        "most_heat": args.most_heat,
         "from": base.pull.name,
         "seed": args.seed,
         "runs": args.runs,
@@ -163,7 +166,7 @@ pub(crate) fn optimize(args: &OptimizeArgs) -> Result<(), Failure> {
     });
     let aim = Aim {
         objective,
-        merge: merge(args.worst_over.as_deref(), &settings, objective)?,
+        merge: merge(args, &settings, objective)?,
         rules,
     };
     let jobs = vec![job(&robot, &settings, aim, base, args.ceiling_mm)?];
@@ -191,20 +194,25 @@ pub(crate) fn optimize(args: &OptimizeArgs) -> Result<(), Failure> {
 
 /// The mean over settings, or the worst over another cycle's values.
 fn merge(
-    other: Option<&str>,
+    args: &OptimizeArgs,
     settings: &[Setting],
     objective: CycleObjective,
 ) -> Result<Merge, Failure> {
-    let Some(name) = other else {
-        return Ok(Merge::Mean);
-    };
-    if objective != CycleObjective::Heat {
+    let several = matches!(objective, CycleObjective::Heat | CycleObjective::Peak);
+    let given = [
+        ("--worst-over", args.worst_over.is_some()),
+        ("--most-heat", args.most_heat.is_some()),
+    ];
+    if let (false, Some((option, _))) = (several, given.iter().find(|(_, given)| *given)) {
         return Err(Failure::Input(anyhow!(
-            "--worst-over goes with --objective heat, which alone looks at several servos"
+            "{option} goes with --objective heat and peak, which alone look at several servos"
         )));
     }
+    let Some(name) = &args.worst_over else {
+        return Ok(Merge::Mean);
+    };
     let cycle = passage::find(name)?;
-    Merge::worst_over(settings, objective, &cycle)
+    Merge::worst_over(settings, &cycle)
         .map_err(|error| Failure::Input(anyhow!("--worst-over {name}: {error}")))
 }
 
@@ -273,7 +281,7 @@ fn settings_for(
     robot: &LoadedRobot,
 ) -> Result<Vec<Setting>, Failure> {
     let settings = match objective {
-        CycleObjective::Heat => settings::for_heat(robot),
+        CycleObjective::Heat | CycleObjective::Peak => settings::for_heat(robot),
         CycleObjective::Advance | CycleObjective::Speed => settings::for_advance(robot),
     };
     let mut settings = settings.map_err(Failure::input)?;
@@ -289,7 +297,7 @@ fn confirmation_for(
     robot: &LoadedRobot,
 ) -> Result<Vec<Setting>, Failure> {
     let settings = match objective {
-        CycleObjective::Heat => settings::for_heat_confirmation(robot),
+        CycleObjective::Heat | CycleObjective::Peak => settings::for_heat_confirmation(robot),
         CycleObjective::Advance | CycleObjective::Speed => settings::for_confirmation(robot),
     };
     let mut settings = settings.map_err(Failure::input)?;
@@ -302,7 +310,7 @@ fn confirmation_for(
 
 fn rules_for(objective: CycleObjective, height: f64, base: &Cycle) -> CycleRules {
     match objective {
-        CycleObjective::Heat => settings::heat_rules(height),
+        CycleObjective::Heat | CycleObjective::Peak => settings::heat_rules(height),
         CycleObjective::Advance | CycleObjective::Speed => settings::advance_rules(height, base),
     }
 }

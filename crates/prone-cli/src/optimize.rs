@@ -123,6 +123,7 @@ fn refuse_cycle_options(args: &OptimizeArgs) -> Result<(), Failure> {
         ),
         ("--body-share-percent", args.body_share_percent.is_some()),
         ("--worst-over", args.worst_over.is_some()),
+        ("--most-heat", args.most_heat.is_some()),
     ];
     match given.iter().find(|(_, given)| *given) {
         None => Ok(()),

@@ -19,6 +19,8 @@ pub struct Regime {
     pub effort: Effort,
     /// Which servo gains hold.
     pub servo: Servo,
+    /// Largest speed that a servo commands, rad/s.
+    pub servo_speed: f64,
     /// Length of one engine step, s; a whole number of them makes a [`CONTROL_STEP`].
     pub time_step: f64,
 }
@@ -61,6 +63,7 @@ impl Regime {
         stops: Stops::Study,
         effort: Effort::Uniform(30.0),
         servo: Servo::Robot,
+        servo_speed: SERVO_SPEED,
         time_step: TIME_STEP,
     };
 
@@ -72,6 +75,7 @@ impl Regime {
         stops: Stops::Maker,
         effort: Effort::Published,
         servo: Servo::Robot,
+        servo_speed: SERVO_SPEED,
         time_step: TIME_STEP,
     };
 
@@ -84,6 +88,7 @@ impl Regime {
         stops: Stops::Study,
         effort: Effort::Uniform(30.0),
         servo: Servo::Robot,
+        servo_speed: SERVO_SPEED,
         time_step: TIME_STEP,
     };
 
@@ -120,6 +125,15 @@ impl Regime {
     #[must_use]
     pub const fn with_servo(self, servo: Servo) -> Self {
         Self { servo, ..self }
+    }
+
+    /// The same with servos that command other speeds, up to one, rad/s.
+    #[must_use]
+    pub const fn with_servo_speed(self, servo_speed: f64) -> Self {
+        Self {
+            servo_speed,
+            ..self
+        }
     }
 
     /// Engine steps in a time, s, at least one.

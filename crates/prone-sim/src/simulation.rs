@@ -8,7 +8,7 @@ use mujoco_rs::prelude::*;
 use prone::frames::{Ground, Link, Point, Root, Transform};
 use prone::robot::{BodyPoses, ContactGroup, Joint, JointAngles, JointId, Robot};
 
-use crate::regime::{CONTROL_STEP, SERVO_RATE, SERVO_SPEED, Servo};
+use crate::regime::{CONTROL_STEP, SERVO_RATE, Servo};
 use crate::world::World;
 
 mod contacts;
@@ -157,9 +157,10 @@ impl<'w> Simulation<'w> {
 
     /// One engine step under the servo law `speed = clip(rate · error, ±largest)`.
     pub fn step(&mut self) {
+        let largest = self.world.regime().servo_speed;
         for (index, reference) in self.reference.iter().enumerate() {
             let error = reference - self.data.qpos()[FREE_JOINT + index];
-            let speed = (SERVO_RATE * error).clamp(-SERVO_SPEED, SERVO_SPEED);
+            let speed = (SERVO_RATE * error).clamp(-largest, largest);
             self.data.ctrl_mut()[index] = speed;
             // As the engine is about to work it out, before it cuts it.
             let lag = speed - self.data.qvel()[FREE_JOINT_SPEEDS + index];

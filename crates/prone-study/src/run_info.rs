@@ -2,9 +2,7 @@
 
 use serde::Serialize;
 
-use prone_sim::regime::{
-    CONTROL_STEP, Effort, SERVO_RATE, SERVO_SPEED, SOLIMP, SOLREF, Stops, TIME_STEP,
-};
+use prone_sim::regime::{CONTROL_STEP, Effort, SERVO_RATE, SOLIMP, SOLREF, Stops, TIME_STEP};
 use prone_sim::{LoadedRobot, Regime, World};
 
 use crate::table_crawl::TableStudy;
@@ -143,7 +141,7 @@ impl RunInfo {
                 time_step_s: TIME_STEP,
                 control_step_s: CONTROL_STEP,
                 servo_rate_per_s: SERVO_RATE,
-                servo_speed_rad_s: SERVO_SPEED,
+                servo_speed_rad_s: regime.servo_speed,
                 solref: SOLREF,
                 solimp: SOLIMP,
                 start_posture: study.start_posture.clone(),

@@ -37,6 +37,7 @@ Examples:
   prone optimize --objective published --source table.csv --solver ga --seed 1 --out out/replication
   prone optimize --objective heat --source statics --seed 7 --budget 20000 --out out/heat --resume
   prone optimize --objective heat --source cycle --from low-175 --worst-over thesis-nominal --seed 1 --runs 6 --out out/efficient
+  prone optimize --objective peak --source cycle --from low-175 --least-advance-mm 40 --seed 1 --out out/gentle
   prone optimize --objective speed --source cycle --ceiling-mm 180 --seed 1 --out out/fast
 
 The folder appears when all is done: gait.toml (for every other command), result.json, history.csv,
@@ -82,19 +83,22 @@ pub(crate) struct OptimizeArgs {
     /// cycle: only cycles that can be steered, as in `prone crawl frontier --steerable`
     #[arg(long)]
     pub(crate) steerable: bool,
-    /// cycle: least advance per cycle, mm [default: 120 for heat, else 10]
+    /// cycle: least advance per cycle, mm [default: 120 for heat and peak, else 10]
     #[arg(long, value_name = "MM", value_parser = super::passage::height, allow_negative_numbers = true)]
     pub(crate) least_advance_mm: Option<f64>,
     /// cycle: largest torque that a shoulder's servo may demand, N·m [default: any]
-    #[arg(long, value_name = "NM", value_parser = torque, allow_negative_numbers = true)]
+    #[arg(long, value_name = "NM", value_parser = positive_number, allow_negative_numbers = true)]
     pub(crate) demanded_shoulder_nm: Option<f64>,
     /// cycle: largest share of the weight on trunk and legs in the pull, percent [default: any]
     #[arg(long, value_name = "P", value_parser = percent, allow_negative_numbers = true)]
     pub(crate) body_share_percent: Option<f64>,
-    /// cycle, heat: minimise the larger of the heats with soft and with stiff servos, each over that
-    /// of this cycle, instead of their geometric mean
+    /// cycle, heat and peak: heat is the larger of those with soft and with stiff servos, each over
+    /// that of this cycle, instead of their geometric mean
     #[arg(long, value_name = "GAIT")]
     pub(crate) worst_over: Option<String>,
+    /// cycle, heat and peak: largest heat, s/m, or share with --worst-over [default: any]
+    #[arg(long, value_name = "H", value_parser = positive_number, allow_negative_numbers = true)]
+    pub(crate) most_heat: Option<f64>,
     /// Name of the found gait [default: best-OBJECTIVE]
     #[arg(long, value_name = "NAME", value_parser = name)]
     pub(crate) name: Option<String>,
@@ -155,7 +159,7 @@ fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
-fn torque(text: &str) -> Result<f64, String> {
+fn positive_number(text: &str) -> Result<f64, String> {
     between(text, 0.01, 1000.0)
 }
 

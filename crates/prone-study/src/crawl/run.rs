@@ -5,7 +5,7 @@ use serde::Serialize;
 use prone::gait::cycle::Cycle;
 use prone::robot::{JointAngles, Robot};
 use prone_sim::crawl::COMMAND_STEP;
-use prone_sim::regime::{Effort, SERVO_RATE, SERVO_SPEED, SOLIMP, SOLREF, Servo, Stops};
+use prone_sim::regime::{Effort, SERVO_RATE, SOLIMP, SOLREF, Servo, Stops};
 use prone_sim::{LoadedRobot, World};
 
 use crate::run_info::{Program, RobotInfo};
@@ -171,7 +171,7 @@ impl<'a> CrawlRunInfo<'a> {
                     Servo::Uniform(gain) => format!("{gain} N·m·s/rad on every joint"),
                 },
                 servo_rate_per_s: SERVO_RATE,
-                servo_speed_rad_s: SERVO_SPEED,
+                servo_speed_rad_s: regime.servo_speed,
                 time_step_s: regime.time_step,
                 command_step_s: COMMAND_STEP,
                 settle_s: prone_sim::pull::SETTLE,

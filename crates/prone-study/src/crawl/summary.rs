@@ -169,9 +169,8 @@ pub fn of(
         .map_or((0.0, 0.0), |last| (last.x_mm, last.y_mm));
     let cycles = per_cycle.len();
     let mm_per_cycle = distance_mm / cycles.max(1) as f64;
-    let mean = |of: fn(&CycleSummary) -> f64| {
-        per_cycle.iter().map(of).sum::<f64>() / cycles.max(1) as f64
-    };
+    let mean =
+        |of: fn(&CycleSummary) -> f64| per_cycle.iter().map(of).sum::<f64>() / cycles.max(1) as f64;
     let pull_mm_per_cycle = mean(|cycle| cycle.pull_advance_mm);
     let of_stride = |advance_mm: f64| (stride_mm > 0.0).then(|| advance_mm / stride_mm);
     let (peak, peak_joint) = crawl.effort.peak_over_limit(robot);

@@ -1,12 +1,12 @@
 //! What a whole cycle costs, by simulation in the locomotion regime.
 //!
 //! A cycle is crawled in one or more settings (friction, servo, time scale). In the main ones the
-//! values are merged ([`Merge`]): heat per metre, advance per cycle or speed. In all of them the
-//! rules are held: nothing higher than the ceiling, enough advance, and where [`CycleRules`] ask for
-//! them no more of a shoulder's servo and no more weight on trunk and legs in the pull. What is
-//! broken adds up, each in shares of its limit, and compares before the value. The settings are
-//! taken in order, and those after one that breaks a rule are not simulated: each counts as
-//! [`UNTRIED`].
+//! value counts: heat per metre, merged over servos ([`Merge`]), advance per cycle, speed, or what a
+//! shoulder's servo demands. In all of them the rules are held: nothing higher than the ceiling,
+//! enough advance, and where [`CycleRules`] ask for them no more of a shoulder's servo, no more
+//! weight on trunk and legs in the pull, no more heat. What is broken adds up, each in shares of its
+//! limit, and compares before the value. The settings are taken in order, and those after one that
+//! breaks a rule are not simulated: each counts as [`UNTRIED`].
 
 use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale};
 use prone::gait::{Clamp, LimitsPolicy};
@@ -30,6 +30,8 @@ pub enum CycleObjective {
     Advance,
     /// Minus the speed, m/s.
     Speed,
+    /// Largest torque that a shoulder's servo demands, with the robot's own servo gains, N·m.
+    Peak,
 }
 
 impl CycleObjective {
@@ -39,58 +41,54 @@ impl CycleObjective {
             Self::Heat => "heat",
             Self::Advance => "advance",
             Self::Speed => "speed",
+            Self::Peak => "peak",
         }
     }
 
-    fn value(self, trial: &Trial) -> f64 {
+    /// Of trials where values count, the one with the robot's own servos first.
+    fn value(self, trials: &[&Trial], merge: &Merge) -> f64 {
+        let first = |of: fn(&Trial) -> f64| trials.first().map_or(f64::NAN, |trial| of(trial));
         match self {
-            Self::Heat => trial.heat_per_metre,
-            Self::Advance => -trial.advance,
-            Self::Speed => -trial.advance / trial.seconds,
+            Self::Heat => merge.heat(trials),
+            Self::Advance => first(|trial| -trial.advance),
+            Self::Speed => first(|trial| -trial.advance / trial.seconds),
+            Self::Peak => first(|trial| trial.demanded_shoulder),
         }
     }
 }
 
-/// How the values of the settings in which they count become one.
+/// How the heats with different servos become one.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Merge {
-    /// Their mean; of heat the geometric one: with stiff servos it is five times that with soft
-    /// ones, and a percent is a percent.
+    /// Their geometric mean, s/m: with stiff servos it is five times that with soft ones, and a
+    /// percent is a percent.
     Mean,
-    /// The largest, each over what another cycle has in that setting; these values, in the order of
-    /// the settings.
+    /// The largest share, each over what another cycle has in that setting; these values, s/m, in
+    /// the order of the settings.
     WorstOver(Vec<f64>),
 }
 
 impl Merge {
-    /// The worst over a cycle's own values.
+    /// The worst over a cycle's own heats.
     ///
     /// # Errors
     /// [`CrawlError`] where that cycle cannot be crawled in one of the settings.
-    pub fn worst_over(
-        settings: &[Setting],
-        objective: CycleObjective,
-        cycle: &Cycle,
-    ) -> Result<Self, CrawlError> {
+    pub fn worst_over(settings: &[Setting], cycle: &Cycle) -> Result<Self, CrawlError> {
         let valued = settings
             .iter()
             .filter(|setting| setting.role == Role::Value);
-        let values = valued.map(|setting| Ok(objective.value(&try_out(setting, cycle)?)));
-        values.collect::<Result<_, _>>().map(Self::WorstOver)
+        let heats = valued.map(|setting| Ok(try_out(setting, cycle)?.heat_per_metre));
+        heats.collect::<Result<_, _>>().map(Self::WorstOver)
     }
 
-    /// One value; NaN where there is none.
-    fn one(&self, objective: CycleObjective, values: &[f64]) -> f64 {
-        let mean = |sum: f64| sum / values.len() as f64;
-        match (self, objective) {
-            (Self::Mean, CycleObjective::Heat) => {
-                mean(values.iter().map(|value| value.ln()).sum()).exp()
-            }
-            (Self::Mean, _) => mean(values.iter().sum()),
-            (Self::WorstOver(others), _) => values
-                .iter()
+    /// One heat; NaN where there is none.
+    fn heat(&self, trials: &[&Trial]) -> f64 {
+        let heats = trials.iter().map(|trial| trial.heat_per_metre);
+        match self {
+            Self::Mean => (heats.map(f64::ln).sum::<f64>() / trials.len() as f64).exp(),
+            Self::WorstOver(others) => heats
                 .zip(others)
-                .map(|(value, other)| value / other)
+                .map(|(heat, other)| heat / other)
                 .fold(f64::NAN, f64::max),
         }
     }
@@ -111,6 +109,8 @@ pub struct CycleRules {
     /// servo that is five times as stiff asks for five times as much of the same lag, and no gait
     /// would be left.
     pub demanded_shoulder: f64,
+    /// Largest heat, merged over servos.
+    pub heat: f64,
 }
 
 impl CycleRules {
@@ -121,6 +121,7 @@ impl CycleRules {
         body_share: 1.0,
         seconds: f64::INFINITY,
         demanded_shoulder: f64::INFINITY,
+        heat: f64::INFINITY,
     };
 }
 
@@ -173,11 +174,7 @@ impl<'a> CyclePricer<'a> {
     ///
     /// # Errors
     /// [`PricerError`] where the base cannot be crawled.
-    pub fn new(
-        settings: &'a [Setting],
-        aim: Aim,
-        base: &Cycle,
-    ) -> Result<Self, PricerError> {
+    pub fn new(settings: &'a [Setting], aim: Aim, base: &Cycle) -> Result<Self, PricerError> {
         let first = settings.first().ok_or(PricerError::NoSettings)?;
         let world = &first.world;
         let checked = CheckedCycle::plan(world.robot(), world.stops(), base, 0.0, TimeScale::ONE)?;
@@ -205,7 +202,6 @@ impl<'a> CyclePricer<'a> {
             violation: self.broken_in_plan(cycle),
             trials: Vec::new(),
         };
-        let mut values = Vec::new();
         for (index, setting) in self.settings.iter().enumerate() {
             let left = (self.settings.len() - index) as f64;
             if price.violation > 0.0 && thoroughness == Thoroughness::UntilBroken {
@@ -224,12 +220,22 @@ impl<'a> CyclePricer<'a> {
                 .first()
                 .map_or(trial.advance, |first: &Trial| first.advance);
             price.violation += self.broken(setting, &trial, first);
-            if setting.role == Role::Value {
-                values.push(self.aim.objective.value(&trial));
-            }
             price.trials.push(trial);
         }
-        price.value = self.aim.merge.one(self.aim.objective, &values);
+        let tried = self.settings.iter().zip(&price.trials);
+        let valued: Vec<&Trial> = tried
+            .filter(|(setting, _)| setting.role == Role::Value)
+            .map(|(_, trial)| trial)
+            .collect();
+        let Aim {
+            objective,
+            merge,
+            rules,
+        } = &self.aim;
+        price.value = objective.value(&valued, merge);
+        if rules.heat < f64::INFINITY {
+            price.violation += (merge.heat(&valued) / rules.heat - 1.0).max(0.0);
+        }
         price
     }
 
@@ -343,14 +349,33 @@ const PLAN_SAMPLES: usize = 8;
 mod tests {
     use super::*;
 
+    fn warm(heat_per_metre: f64) -> Trial {
+        Trial {
+            setting: String::new(),
+            advance: 0.1,
+            seconds: 2.0,
+            top: (0.2, "head"),
+            heat_per_metre,
+            peak_over_limit: (1.0, String::new()),
+            demanded_shoulder: heat_per_metre,
+            shoulder_saturated: 0.0,
+            body_share: 0.0,
+            yaw: 0.0,
+        }
+    }
+
     #[test]
     fn heats_merge_geometrically_or_to_the_worst_of_shares() {
-        let mean = Merge::Mean.one(CycleObjective::Heat, &[4.0, 9.0]);
+        let (four, nine, much) = (warm(4.0), warm(9.0), warm(81.0));
+        let mean = Merge::Mean.heat(&[&four, &nine]);
         assert!((mean - 6.0).abs() < 1e-12, "{mean}");
-        assert!((Merge::Mean.one(CycleObjective::Advance, &[-0.1, -0.3]) + 0.2).abs() < 1e-12);
         let over = Merge::WorstOver(vec![8.0, 90.0]);
-        assert!((over.one(CycleObjective::Heat, &[4.0, 9.0]) - 0.5).abs() < 1e-12);
-        assert!((over.one(CycleObjective::Heat, &[4.0, 81.0]) - 0.9).abs() < 1e-12);
+        assert!((over.heat(&[&four, &nine]) - 0.5).abs() < 1e-12);
+        assert!((over.heat(&[&four, &much]) - 0.9).abs() < 1e-12);
+        // Of other objectives the robot's own servos decide.
+        let value = |objective: CycleObjective| objective.value(&[&four, &much], &Merge::Mean);
+        assert!((value(CycleObjective::Peak) - 4.0).abs() < 1e-12);
+        assert!((value(CycleObjective::Speed) + 0.05).abs() < 1e-12);
     }
 
     /// A cycle over itself is 1, whatever the servos.
@@ -362,22 +387,26 @@ mod tests {
         let robot = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
         let cycle = shipped::cycle("thesis-nominal").unwrap().unwrap();
         let settings = super::super::settings::for_heat(&robot).unwrap();
-        let merge = Merge::worst_over(&settings, CycleObjective::Heat, &cycle).unwrap();
+        let merge = Merge::worst_over(&settings, &cycle).unwrap();
         let aim = Aim {
             objective: CycleObjective::Heat,
             merge,
             rules: CycleRules {
                 demanded_shoulder: 1.0,
+                heat: 0.5,
                 ..CycleRules::FREE
             },
         };
-        let price = CyclePricer::new(&settings, aim, &cycle).unwrap().quote(&cycle);
+        let price = CyclePricer::new(&settings, aim, &cycle)
+            .unwrap()
+            .quote(&cycle);
         assert!((price.value - 1.0).abs() < 1e-12, "{}", price.value);
         // Stiff servos demand several times as much; only the robot's own are held to the rule.
         let [own, stiff] = &price.trials[..] else {
             panic!("two servos");
         };
         assert!(stiff.demanded_shoulder > 2.0 * own.demanded_shoulder);
-        assert!((price.violation - (own.demanded_shoulder - 1.0)).abs() < 1e-12);
+        // Twice the heat that is allowed, and what is demanded above 1 N·m.
+        assert!((price.violation - own.demanded_shoulder).abs() < 1e-12);
     }
 }

@@ -182,8 +182,10 @@ pub fn for_heat(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
     ])
 }
 
-/// For a confirmation: one thing changed at a time, three cycles each. Stiff servos stand beside it:
-/// no search of the advance looks at them.
+/// For a confirmation: one thing changed at a time, three cycles each. Stiff servos stand beside it,
+/// and servos that command as much speed as the fastest joint of the robot has, where the
+/// recordings' law cuts at 3 rad/s and limbs lag behind the plan: no search of the advance looks at
+/// them.
 ///
 /// # Errors
 /// [`SettingError`].
@@ -192,6 +194,10 @@ pub fn for_confirmation(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingErro
     let keep = Role::Keep(HOLDS);
     let stiff = maker.regime.with_servo(Servo::Uniform(STIFF));
     let fine = maker.regime.with_time_step(0.001);
+    let speeds = robot.robot().joints.iter().map(|joint| joint.speed_limit);
+    let brisk = maker
+        .regime
+        .with_servo_speed(speeds.fold(maker.regime.servo_speed, f64::max));
     Ok(vec![
         maker.make("as it is", maker.regime, 1.0, 3, Role::Value)?,
         maker.make("friction 0.4", maker.friction(SLIPPERY), 1.0, 3, keep)?,
@@ -200,6 +206,7 @@ pub fn for_confirmation(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingErro
         maker.make("time scale 1.7", maker.regime, SLOW, 3, keep)?,
         maker.make("1 ms steps", fine, 1.0, 3, keep)?,
         maker.make("stiff servos", stiff, 1.0, 3, Role::Beside)?,
+        maker.make("brisk servos", brisk, 1.0, 3, Role::Beside)?,
     ])
 }
 

@@ -16,9 +16,12 @@
 //!
 //! [`CheckedCycle::plan`] holds all of it against a robot: stops, joint speeds, the closed chain.
 
+mod checked;
+mod error;
 mod plan;
 
-pub use plan::{CheckedCycle, CycleError, FastestJoint, RecoveryPath};
+pub use checked::{CheckedCycle, FastestJoint, RecoveryPath};
+pub use error::CycleError;
 
 use std::collections::BTreeMap;
 

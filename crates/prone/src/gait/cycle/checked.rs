@@ -1,0 +1,226 @@
+//! A cycle held against a robot: the only thing that a crawl commands.
+
+use super::super::{CheckedTrajectory, Clamp};
+use super::{Approach, CycleError};
+use crate::robot::{JointAngles, Range};
+
+/// A cycle whose every posture lies within the stops it was planned for and whose every joint
+/// speed lies within the robot's limits.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CheckedCycle {
+    pub(super) name: String,
+    pub(super) turn: f64,
+    pub(super) pull: CheckedTrajectory,
+    /// The recovery, waypoint by waypoint; the last is the extension.
+    pub(super) stretches: Vec<Stretch>,
+    /// By how much the turn has moved each joint at the end of the pull, rad; 0 for those that the
+    /// recovery puts back at once.
+    pub(super) aside: Vec<f64>,
+    pub(super) stops: Vec<Range>,
+    pub(super) clamps: Vec<Clamp>,
+    pub(super) fastest: FastestJoint,
+    pub(super) speed_limits: Vec<(String, f64)>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Stretch {
+    pub(super) name: String,
+    pub(super) approach: Approach,
+    /// Where each joint goes, rad; `None` where it stays.
+    pub(super) targets: Vec<Option<f64>>,
+}
+
+/// The joint that comes nearest to its speed limit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FastestJoint {
+    /// The maker's name.
+    pub joint: String,
+    /// Its largest commanded speed, rad/s.
+    pub speed: f64,
+    /// The maker's limit, rad/s.
+    pub limit: f64,
+}
+
+/// The recovery from a given posture, over time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RecoveryPath {
+    from: JointAngles,
+    legs: Vec<(Approach, JointAngles)>,
+}
+
+impl CheckedCycle {
+    /// The cycle's name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The turn command, rad.
+    pub const fn turn(&self) -> f64 {
+        self.turn
+    }
+
+    /// The posture in which the pull begins.
+    pub fn extension(&self) -> &JointAngles {
+        &self.pull.samples()[0].joints
+    }
+
+    /// The posture in which the pull ends.
+    pub fn compression(&self) -> &JointAngles {
+        last(&self.pull)
+    }
+
+    /// The closed-chain phase.
+    pub const fn pull(&self) -> &CheckedTrajectory {
+        &self.pull
+    }
+
+    /// Joint angles at a time since the pull began, s.
+    pub fn pull_at(&self, seconds: f64) -> JointAngles {
+        self.pull.at(seconds / self.pull.duration().seconds())
+    }
+
+    /// How long the recovery lasts, s.
+    pub fn recovery_seconds(&self) -> f64 {
+        let times = self
+            .stretches
+            .iter()
+            .map(|stretch| stretch.approach.seconds);
+        times.sum()
+    }
+
+    /// Names of the recovery's stretches, each with the time at which it ends, s.
+    pub fn recovery_ends(&self) -> Vec<(&str, f64)> {
+        let mut end = 0.0;
+        let stretches = self.stretches.iter().map(|stretch| {
+            end += stretch.approach.seconds;
+            (stretch.name.as_str(), end)
+        });
+        stretches.collect()
+    }
+
+    /// The way to this cycle's extension from where the pull of `previous`, planned for the same
+    /// robot and stops, has ended.
+    ///
+    /// # Errors
+    /// [`CycleError::Speed`] where a joint would have to be too fast.
+    pub fn recovery_after(&self, previous: &Self) -> Result<RecoveryPath, CycleError> {
+        let path = self.path(previous);
+        self.recovery_speed(&path)?;
+        Ok(path)
+    }
+
+    pub(super) fn path(&self, previous: &Self) -> RecoveryPath {
+        let from = previous.compression().clone();
+        let mut posture = from.clone();
+        let legs = self.stretches.iter().enumerate().map(|(index, stretch)| {
+            let angles = stretch
+                .targets
+                .iter()
+                .enumerate()
+                .map(|(joint, to)| match to {
+                    None => posture.as_slice()[joint],
+                    // At the first waypoint the arms are still planted where the last turn has put them.
+                    Some(to) if index == 0 && self.stretches.len() > 1 => {
+                        let stop = self.stops[joint];
+                        (to + previous.aside[joint]).clamp(stop.lower, stop.upper)
+                    }
+                    Some(to) => *to,
+                });
+            posture = JointAngles::from_vec(angles.collect());
+            (stretch.approach, posture.clone())
+        });
+        let legs = legs.collect();
+        RecoveryPath { from, legs }
+    }
+
+    /// What was clamped, by joint; a waypoint counts as a sample at phase 1.
+    pub fn clamps(&self) -> &[Clamp] {
+        &self.clamps
+    }
+
+    /// The joint that comes nearest to its speed limit.
+    pub const fn fastest(&self) -> &FastestJoint {
+        &self.fastest
+    }
+
+    pub(super) fn pull_speed(&self) -> Result<FastestJoint, CycleError> {
+        let samples = self.pull.samples();
+        let step = self.pull.duration().seconds() / (samples.len() - 1) as f64;
+        let mut fastest = vec![0.0_f64; self.speed_limits.len()];
+        for pair in samples.windows(2) {
+            let (from, to) = (pair[0].joints.as_slice(), pair[1].joints.as_slice());
+            for ((fastest, from), to) in fastest.iter_mut().zip(from).zip(to) {
+                *fastest = fastest.max((to - from).abs() / step);
+            }
+        }
+        self.within_speeds("pull", &fastest)
+    }
+
+    pub(super) fn recovery_speed(&self, path: &RecoveryPath) -> Result<FastestJoint, CycleError> {
+        let mut nearest = self.fastest.clone();
+        let mut from = &path.from;
+        for (stretch, (approach, to)) in self.stretches.iter().zip(&path.legs) {
+            let mean = approach.easing.peak_speed() / approach.seconds;
+            let ways = from.as_slice().iter().zip(to.as_slice());
+            let speeds: Vec<f64> = ways.map(|(from, to)| mean * (to - from).abs()).collect();
+            let fastest = self.within_speeds(&stretch.name, &speeds)?;
+            if fastest.share() > nearest.share() {
+                nearest = fastest;
+            }
+            from = to;
+        }
+        Ok(nearest)
+    }
+
+    /// The joint of largest speed over limit; an error where it is over.
+    fn within_speeds(&self, place: &str, speeds: &[f64]) -> Result<FastestJoint, CycleError> {
+        let joints = self.speed_limits.iter().zip(speeds);
+        let fastest = joints
+            .map(|((joint, limit), &speed)| FastestJoint {
+                joint: joint.clone(),
+                speed,
+                limit: *limit,
+            })
+            .max_by(|a, b| a.share().total_cmp(&b.share()));
+        let fastest = fastest.unwrap_or_else(|| self.fastest.clone());
+        if fastest.share() > 1.0 {
+            return Err(CycleError::Speed {
+                cycle: self.name.clone(),
+                place: place.to_owned(),
+                joint: fastest.joint,
+                speed: fastest.speed,
+                limit: fastest.limit,
+            });
+        }
+        Ok(fastest)
+    }
+}
+
+impl FastestJoint {
+    /// Speed over limit.
+    pub fn share(&self) -> f64 {
+        self.speed / self.limit
+    }
+}
+
+impl RecoveryPath {
+    /// Joint angles at a time since the recovery began, s.
+    pub fn at(&self, seconds: f64) -> JointAngles {
+        let mut begin = 0.0;
+        let mut from = &self.from;
+        for (approach, to) in &self.legs {
+            let share = (seconds - begin) / approach.seconds;
+            if share < 1.0 {
+                return from.towards(to, approach.easing.share(share));
+            }
+            begin += approach.seconds;
+            from = to;
+        }
+        from.clone()
+    }
+}
+
+pub(super) fn last(pull: &CheckedTrajectory) -> &JointAngles {
+    let samples = pull.samples();
+    &samples[samples.len() - 1].joints
+}

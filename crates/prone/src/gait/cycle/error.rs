@@ -1,0 +1,99 @@
+//! Why a cycle cannot be crawled.
+
+use super::super::{PhaseDurationError, TrajectoryError};
+use super::Cycle;
+
+/// Why a cycle cannot be crawled.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum CycleError {
+    /// The pull has no trajectory.
+    #[error(transparent)]
+    Pull(#[from] TrajectoryError),
+    /// The pull would be too short or too long at this time scale.
+    #[error("cycle {cycle}: {source}")]
+    Duration {
+        /// The cycle's name.
+        cycle: String,
+        /// What is wrong.
+        source: PhaseDurationError,
+    },
+    /// A joint that the robot does not have.
+    #[error("cycle {cycle}, {place}: robot {robot} has no joint {joint}")]
+    UnknownJoint {
+        /// The cycle's name.
+        cycle: String,
+        /// Pull, steering or a waypoint.
+        place: String,
+        /// The robot's name.
+        robot: String,
+        /// The joint's name.
+        joint: String,
+    },
+    /// A joint that the chain commands already.
+    #[error("cycle {cycle}, {place}: {joint} belongs to the chain, which moves it")]
+    ChainJoint {
+        /// The cycle's name.
+        cycle: String,
+        /// Pull or steering.
+        place: String,
+        /// The joint's name.
+        joint: String,
+    },
+    /// A stretch of the recovery that takes no time, or ages.
+    #[error("cycle {cycle}, {place}: {seconds} s is outside {}..{} s", Cycle::STRETCH_SECONDS.0, Cycle::STRETCH_SECONDS.1)]
+    Seconds {
+        /// The cycle's name.
+        cycle: String,
+        /// The waypoint.
+        place: String,
+        /// What was asked for.
+        seconds: f64,
+    },
+    /// A turn that the cycle has no steering for.
+    #[error("cycle {cycle}: a turn of {turn_deg:.2}° is more than its steering's {limit_deg:.2}°")]
+    Turn {
+        /// The cycle's name.
+        cycle: String,
+        /// What was asked for, degrees.
+        turn_deg: f64,
+        /// The largest, degrees; 0 without steering.
+        limit_deg: f64,
+    },
+    /// A joint of a waypoint passes its limit and the policy is to refuse.
+    #[error(
+        "cycle {cycle}, {place}: {joint} {angle:.4} rad is outside {lower:.4}..{upper:.4}, by {excess:.4} rad; \
+         `limits = \"clamp\"` in the file would stop it there"
+    )]
+    Limit {
+        /// The cycle's name.
+        cycle: String,
+        /// The waypoint.
+        place: String,
+        /// The joint's name.
+        joint: String,
+        /// What is asked for, rad.
+        angle: f64,
+        /// The lower stop, rad.
+        lower: f64,
+        /// The upper stop, rad.
+        upper: f64,
+        /// How far outside, rad.
+        excess: f64,
+    },
+    /// A joint would have to be faster than it is.
+    #[error(
+        "cycle {cycle}, {place}: {joint} would need {speed:.2} rad/s, above its limit of {limit:.2} rad/s"
+    )]
+    Speed {
+        /// The cycle's name.
+        cycle: String,
+        /// The pull or the waypoint that it goes to.
+        place: String,
+        /// The joint's name.
+        joint: String,
+        /// The largest speed, rad/s.
+        speed: f64,
+        /// The maker's limit, rad/s.
+        limit: f64,
+    },
+}
