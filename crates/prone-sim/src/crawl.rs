@@ -6,16 +6,20 @@
 //! reached when the next command comes, held until then. At the end of each pull a [`Pilot`] says which cycle comes next and how it
 //! turns; the recovery then leads to that cycle's extension.
 
+mod effort;
 mod measure;
 mod pilot;
 mod slope;
+mod tops;
 mod touch;
 
-pub use measure::{Advance, BodyPart, CycleRow, Effort, JointEffort, Row, Tops};
+pub use effort::{Effort, JointEffort};
+pub use measure::{Advance, CycleRow, Row};
 pub use pilot::{
     Bearing, BearingSource, Decision, Exact, HoldHeading, HoldLine, Moment, Pilot, Stage, Straight,
 };
 pub use slope::SlopeAware;
+pub use tops::{BodyPart, Tops};
 pub use touch::Touch;
 
 use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale};

@@ -4,84 +4,15 @@ use glam::DVec3;
 
 use prone::frames::{Ground, Root, Transform};
 use prone::gait::cycle::CheckedCycle;
-use prone::robot::{ContactGroup, JointAngles, JointId, Robot, Shape};
+use prone::robot::JointAngles;
 
+use super::effort::Effort;
 use super::pilot::{Stage, bearing};
+use super::tops::{BodyPart, Tops};
 use super::touch::{Touch, Touches};
 use super::{Bearing, Detail, ROW_STEP};
 use crate::simulation::{ContactForce, Simulation, Snapshot};
 use crate::world::World;
-
-/// A part of the body whose height is recorded apart.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum BodyPart {
-    /// Neck and head.
-    Head,
-    /// Trunk and pelvis.
-    Trunk,
-    /// From the shoulders to the hands.
-    Arms,
-    /// Thighs and shins.
-    Legs,
-    /// From the ankles on.
-    Feet,
-}
-
-impl BodyPart {
-    /// All parts, in the order of every array over them.
-    pub const ALL: [Self; 5] = [Self::Head, Self::Trunk, Self::Arms, Self::Legs, Self::Feet];
-
-    /// Name in records.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Head => "head",
-            Self::Trunk => "trunk",
-            Self::Arms => "arms",
-            Self::Legs => "legs",
-            Self::Feet => "feet",
-        }
-    }
-
-    /// The part that a shape belongs to.
-    pub fn of(robot: &Robot, shape: &Shape) -> Self {
-        let body = &robot.bodies[shape.body.0];
-        match body.contact_group {
-            _ if body.is_head => Self::Head,
-            ContactGroup::Toe => Self::Feet,
-            ContactGroup::Elbow => Self::Arms,
-            ContactGroup::Torso => Self::Trunk,
-            ContactGroup::Leg => Self::Legs,
-        }
-    }
-}
-
-/// Highest points above the floor, m, by [`BodyPart::ALL`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tops(pub [f64; 5]);
-
-impl Tops {
-    /// Of nothing yet.
-    pub const NONE: Self = Self([f64::NEG_INFINITY; 5]);
-
-    /// Of all parts.
-    pub fn highest(&self) -> f64 {
-        self.0.into_iter().fold(f64::NEG_INFINITY, f64::max)
-    }
-
-    /// The part that reaches highest.
-    pub fn part(&self) -> BodyPart {
-        let parts = BodyPart::ALL.into_iter().zip(self.0);
-        parts
-            .max_by(|a, b| a.1.total_cmp(&b.1))
-            .map_or(BodyPart::Trunk, |(part, _)| part)
-    }
-
-    fn raise(&mut self, other: &Self) {
-        for (top, other) in self.0.iter_mut().zip(other.0) {
-            *top = top.max(other);
-        }
-    }
-}
 
 /// One instant of a crawl.
 #[derive(Debug, Clone, PartialEq)]
@@ -98,7 +29,7 @@ pub struct Row {
     pub angles: JointAngles,
     /// **Actuator torque** of each joint about its axis, mean over the row, N·m.
     pub actuator_torque: Vec<f64>,
-    /// Normal contact force of the ground by [`ContactGroup::ALL`], mean over the row, N.
+    /// Normal contact force of the ground by [`prone::robot::ContactGroup::ALL`], mean over the row, N.
     pub contact: [f64; 4],
     /// What the world does to the robot now, contact by contact.
     pub forces: Vec<ContactForce>,
@@ -111,7 +42,7 @@ pub struct Row {
 /// One cycle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CycleRow {
-    /// The gait's name.
+    /// Name of the pull's gait; the recovery leads to the next pull's extension.
     pub gait: String,
     /// Turn command of its pull, rad.
     pub turn: f64,
@@ -172,87 +103,6 @@ impl CycleRow {
 fn wrapped(angle: f64) -> f64 {
     use std::f64::consts::{PI, TAU};
     (angle + PI).rem_euclid(TAU) - PI
-}
-
-/// What the motors of a robot did.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Effort {
-    /// Over which time, s.
-    pub seconds: f64,
-    /// By joint.
-    pub joints: Vec<JointEffort>,
-}
-
-/// What one motor did. Torque is **actuator torque**, after the effort limit, unless it says
-/// demanded.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct JointEffort {
-    /// ∫ τ² dt, N²·m²·s.
-    pub square: f64,
-    /// ∫ max(τω, 0) dt, J: a motor is not given back what it brakes.
-    pub work: f64,
-    /// Largest |τ|, N·m.
-    pub peak: f64,
-    /// Largest |τ| demanded by the servo, before the effort limit, N·m.
-    pub demanded_peak: f64,
-    /// How long the servo demanded more than the effort limit, s.
-    pub saturated: f64,
-    /// How long the servo demanded more than the motor's nominal torque, s.
-    pub over_nominal: f64,
-}
-
-impl JointEffort {
-    fn add(&mut self, other: &Self) {
-        self.square += other.square;
-        self.work += other.work;
-        self.peak = self.peak.max(other.peak);
-        self.demanded_peak = self.demanded_peak.max(other.demanded_peak);
-        self.saturated += other.saturated;
-        self.over_nominal += other.over_nominal;
-    }
-}
-
-impl Effort {
-    fn none(robot: &Robot) -> Self {
-        Self {
-            seconds: 0.0,
-            joints: vec![JointEffort::default(); robot.joints.len()],
-        }
-    }
-
-    fn add(&mut self, other: &Self) {
-        self.seconds += other.seconds;
-        for (joint, other) in self.joints.iter_mut().zip(&other.joints) {
-            joint.add(other);
-        }
-    }
-
-    /// ∫ Σ (τ / nominal torque)² dt over the joints whose motor is known, s: in proportion to the heat of
-    /// their windings.
-    pub fn heat(&self, robot: &Robot) -> f64 {
-        let joints = robot.joints.iter().zip(&self.joints);
-        let heats = joints.filter_map(|(joint, effort)| {
-            let nominal = joint.motor?.nominal;
-            Some(effort.square / (nominal * nominal))
-        });
-        heats.sum()
-    }
-
-    /// ∫ Σ max(τω, 0) dt, J.
-    pub fn work(&self) -> f64 {
-        self.joints.iter().map(|joint| joint.work).sum()
-    }
-
-    /// The largest |τ| over the effort limit, and whose it is.
-    pub fn peak_over_limit(&self, robot: &Robot) -> (f64, JointId) {
-        let shares = robot.joints.iter().zip(&self.joints).enumerate();
-        shares
-            .map(|(index, (joint, effort))| (effort.peak / joint.effort_limit, JointId(index)))
-            .fold(
-                (0.0, JointId(0)),
-                |best, next| if next.0 > best.0 { next } else { best },
-            )
-    }
 }
 
 /// Measures while a crawl goes on.
