@@ -55,7 +55,7 @@ const GAITS: [(&str, &str); 8] = [
 /// Names and texts of the cycles that ship with the program: those with the published postures, then
 /// those that keep low and can be steered, then those that come farthest under a ceiling,
 /// and those of least motor heat and of least torque asked of the shoulders.
-const CYCLES: [(&str, &str); 10] = [
+const CYCLES: [(&str, &str); 11] = [
     (
         "thesis-nominal",
         include_str!("../../../gaits/thesis-nominal.toml"),
@@ -67,6 +67,7 @@ const CYCLES: [(&str, &str); 10] = [
     ("low-200", include_str!("../../../gaits/low-200.toml")),
     ("low-175", include_str!("../../../gaits/low-175.toml")),
     ("low-165", include_str!("../../../gaits/low-165.toml")),
+    ("hip-10", include_str!("../../../gaits/hip-10.toml")),
     ("far-200", include_str!("../../../gaits/far-200.toml")),
     ("far-183", include_str!("../../../gaits/far-183.toml")),
     ("far-165", include_str!("../../../gaits/far-165.toml")),

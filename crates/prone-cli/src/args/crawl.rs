@@ -25,7 +25,7 @@ Examples:
   prone crawl run --gait low-175 --ceiling-mm 178 --length-m 1.5 --until-past --heading-hold
   prone crawl run --gait low-175 --turn-deg-per-cycle 12 --cycles 10 --json | jq .yaw_deg
   prone crawl run --gait thesis-nominal --scene table --cycles 25 --record out/table
-  prone crawl run --gait low-165 --uphill low-175 --scene ramp --seed 1 --cycles 20
+  prone crawl run --gait hip-10 --uphill low-175 --scene ramp --seed 1 --cycles 20
 
 Contact regime `locomotion`: friction 0.7 where nothing else is said, the maker's effort and joint
 limits on. The robot starts with its foremost point at x = 0; a plate of --ceiling-mm begins 50 mm

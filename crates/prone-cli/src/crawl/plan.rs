@@ -25,7 +25,7 @@ const CYCLES: usize = 9;
 
 /// Slope above which the cycle for going uphill is taken, degrees: above what the inertial unit is
 /// off by (0.8°), below the 2° that it feels at the foot of a ramp of 10°, with the elbows on it and
-/// the toes before it, where `low-165` comes to a halt.
+/// the toes before it, where `hip-10` comes to a halt.
 const UPHILL_DEG: f64 = 1.5;
 
 /// How many cycles a robot has to get past its obstacles.
