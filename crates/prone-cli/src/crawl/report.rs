@@ -55,8 +55,11 @@ pub(super) fn print(summary: &CrawlSummary, out: &mut impl Write) -> Result<()> 
     writeln!(out)?;
     writeln!(
         out,
-        "  peak torque {:.2} of rated ({}); demanded of a shoulder {:.2} N·m",
-        s.peak_torque_over_rated, s.peak_torque_joint, s.demanded_peak_shoulder_nm
+        "  peak torque {:.2} of rated ({}); demanded of a shoulder {:.2} N·m, more than its limit {:.1} % of the time",
+        s.peak_torque_over_rated,
+        s.peak_torque_joint,
+        s.demanded_peak_shoulder_nm,
+        s.saturated_shoulder_share * 100.0
     )?;
     match &s.saturated_joint {
         Some(joint) => writeln!(

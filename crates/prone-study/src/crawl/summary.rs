@@ -63,6 +63,9 @@ pub struct CrawlSummary {
     pub peak_torque_joint: String,
     /// Largest torque that a servo of a shoulder's pitch demanded, before its limit, N·m.
     pub demanded_peak_shoulder_nm: f64,
+    /// Share of the time in which the servo of a shoulder's pitch demanded more than the effort
+    /// limit, of the side where it is larger.
+    pub saturated_shoulder_share: f64,
     /// Share of the time in which a servo demanded more than the effort limit, of the joint where
     /// it is largest.
     pub saturated_share: f64,
@@ -178,7 +181,9 @@ pub fn of(
     let metres = (distance_mm > 0.0).then_some(distance_mm / 1e3);
     let (heat_s, work_j) = (crawl.effort.heat(robot), crawl.effort.work());
     let shoulders = robot.chain.sides().map(|side| side.shoulder);
-    let demanded = shoulders.map(|joint| crawl.effort.joints[joint.0].demanded_peak);
+    let shoulders = shoulders.map(|joint| crawl.effort.joints[joint.0]);
+    let demanded = shoulders.map(|shoulder| shoulder.demanded_peak);
+    let over = shoulders.map(|shoulder| shoulder.saturated / crawl.effort.seconds);
     Ok(CrawlSummary {
         gait: cycle.pull.name.clone(),
         robot: robot.name.clone(),
@@ -204,6 +209,7 @@ pub fn of(
         peak_torque_over_rated: peak,
         peak_torque_joint: robot.joints[peak_joint.0].name.clone(),
         demanded_peak_shoulder_nm: demanded[0].max(demanded[1]),
+        saturated_shoulder_share: over[0].max(over[1]),
         saturated_share: saturated,
         saturated_joint: saturated_joint.map(|joint| robot.joints[joint].name.clone()),
         heat_s,
