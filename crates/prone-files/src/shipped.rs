@@ -54,8 +54,8 @@ const GAITS: [(&str, &str); 8] = [
 
 /// Names and texts of the cycles that ship with the program: those with the published postures, then
 /// those that keep low and can be steered, then those that come farthest under a ceiling,
-/// and those of least motor heat and of least torque asked of the shoulders.
-const CYCLES: [(&str, &str); 11] = [
+/// and those of little motor heat and of least torque asked of the shoulders.
+const CYCLES: [(&str, &str); 12] = [
     (
         "thesis-nominal",
         include_str!("../../../gaits/thesis-nominal.toml"),
@@ -71,6 +71,7 @@ const CYCLES: [(&str, &str); 11] = [
     ("far-200", include_str!("../../../gaits/far-200.toml")),
     ("far-183", include_str!("../../../gaits/far-183.toml")),
     ("far-165", include_str!("../../../gaits/far-165.toml")),
+    ("least-heat", include_str!("../../../gaits/least-heat.toml")),
     ("efficient", include_str!("../../../gaits/efficient.toml")),
     ("gentle", include_str!("../../../gaits/gentle.toml")),
 ];
