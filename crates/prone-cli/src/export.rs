@@ -13,36 +13,54 @@ use prone::gait::cycle::{CheckedCycle, TimeScale};
 use prone_files::cycle_file;
 use prone_sim::{Regime, World};
 use prone_study::export::{key_frames, numpy, ros_log, table, timeline, urdf};
-use prone_study::recorded::{Cut, Recorded};
+use prone_study::recorded::{Command, Recorded, RecordedRun};
 
 use crate::args::{ExportArgs, Format};
-use crate::{Failure, interrupt, table_file};
+use crate::{Failure, incomplete, interrupt, table_file};
 
 pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
     let is_film = matches!(args.format, Format::Mp4 | Format::Webp | Format::Gif);
     if !is_film {
         refuse_camera(args)?;
     }
-    let record = Recorded::read(&args.run).map_err(Failure::input)?;
+    let run = RecordedRun::read(&args.run).map_err(Failure::input)?;
     let out = place(args)?;
+    if args.robot.is_some() {
+        // Also where the format does without: a wrong answer is not taken for none.
+        origin::files(args, &run)?;
+    }
     interrupt::listen()?;
-    let said = if is_film {
-        filming::run(args, &record, &out)?
+    let parts = args.format.parts();
+    if parts.is_empty() {
+        let (bytes, said) = of_run(args, &run)?;
+        return put(&out, &bytes, &said);
+    }
+    let record = Recorded::read(&args.run).map_err(Failure::input)?;
+    if is_film {
+        let said = filming::run(args, &record, &out)?;
+        say(&out, &said)?;
     } else {
-        let (bytes, said) = bytes(args, &record)?;
-        interrupt::publish(|| {
-            table_file::write(&out, &bytes).map_err(|error| cannot_write(&out, &error))
-        })?;
-        said
-    };
-    let mut stdout = std::io::stdout().lock();
-    writeln!(stdout, "{}: {said}", out.display())?;
-    drop(stdout);
-    cut_off(&record)
+        let (bytes, said) = of_tables(args, &record)?;
+        put(&out, &bytes, &said)?;
+    }
+    incomplete::say(&[(&args.run, record.shortfalls(parts))])
 }
 
-/// The file's content, and what it holds.
-fn bytes(args: &ExportArgs, record: &Recorded) -> Result<(Vec<u8>, String), Failure> {
+/// Writes the file, and says what it holds.
+fn put(out: &Path, bytes: &[u8], said: &str) -> Result<(), Failure> {
+    interrupt::publish(|| {
+        table_file::write(out, bytes).map_err(|error| cannot_write(out, &error))
+    })?;
+    say(out, said)
+}
+
+fn say(out: &Path, said: &str) -> Result<(), Failure> {
+    writeln!(std::io::stdout().lock(), "{}: {said}", out.display())?;
+    Ok(())
+}
+
+/// The content of a file that is made of the record's tables, and what it holds.
+fn of_tables(args: &ExportArgs, record: &Recorded) -> Result<(Vec<u8>, String), Failure> {
     let held = format!("{}, {}", span(record), joints(record));
     match args.format {
         Format::Csv => Ok((table::of(record).map_err(Failure::work)?, held)),
@@ -51,25 +69,38 @@ fn bytes(args: &ExportArgs, record: &Recorded) -> Result<(Vec<u8>, String), Fail
             let said = format!("{held}, {} contacts", record.contacts.len());
             Ok((ros_log::of(record).map_err(Failure::work)?, said))
         }
+        _ => unreachable!("the other formats are made elsewhere"),
+    }
+}
+
+/// The content of a file that needs no table, and what it holds.
+fn of_run(args: &ExportArgs, run: &RecordedRun) -> Result<(Vec<u8>, String), Failure> {
+    match args.format {
         Format::Urdf => {
-            let robot = origin::robot(args, record)?;
+            let robot = origin::robot(args, run)?;
             let world = World::new(&robot, Regime::LOCOMOTION).map_err(Failure::input)?;
             let (bodies, joints) = (robot.robot().bodies.len(), robot.robot().joints.len());
             let said = format!("{}, {bodies} links, {joints} hinges", robot.robot().name);
             Ok((urdf::of(&world).into_bytes(), said))
         }
-        Format::Xar | Format::Keyframes => cycle(args, record),
-        Format::Mp4 | Format::Webp | Format::Gif => unreachable!("films are made elsewhere"),
+        _ => cycle(args, run),
     }
 }
 
 /// One commanded cycle.
-fn cycle(args: &ExportArgs, record: &Recorded) -> Result<(Vec<u8>, String), Failure> {
-    let loaded = origin::robot(args, record)?;
+fn cycle(args: &ExportArgs, run: &RecordedRun) -> Result<(Vec<u8>, String), Failure> {
+    let gait = &run.gait;
+    if run.command == Command::ReproducePull {
+        return Err(Failure::Input(anyhow!(
+            "{} is a pull alone, and {} is a cycle with its way back: export a crawl",
+            args.run.display(),
+            args.format.ending()
+        )));
+    }
+    let loaded = origin::robot(args, run)?;
     let robot = loaded.robot();
-    let gait = &record.run.gait;
     let cycle = cycle_file::parse(&gait.file, &gait.text).map_err(Failure::input)?;
-    let scale = TimeScale::new(record.run.options.time_scale).map_err(Failure::input)?;
+    let scale = TimeScale::new(run.options.time_scale).map_err(Failure::input)?;
     let checked =
         CheckedCycle::plan(robot, &robot.stops(), &cycle, 0.0, scale).map_err(Failure::input)?;
     let is_xar = args.format == Format::Xar;
@@ -115,6 +146,12 @@ fn refuse_camera(args: &ExportArgs) -> Result<(), Failure> {
 /// Where the file goes: never over a file of the record, nor among them.
 fn place(args: &ExportArgs) -> Result<PathBuf, Failure> {
     let out = args.out.clone().unwrap_or_else(|| default_place(args));
+    if out.is_dir() {
+        return Err(Failure::Input(anyhow!(
+            "--out {} is a folder: name a file in it",
+            out.display()
+        )));
+    }
     let folder = match out.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
@@ -148,19 +185,6 @@ fn default_place(args: &ExportArgs) -> PathBuf {
 
 fn cannot_write(out: &Path, error: &std::io::Error) -> Failure {
     Failure::Work(anyhow!("cannot write {}: {error}", out.display()))
-}
-
-/// What could not be read is said after what could be is written.
-fn cut_off(record: &Recorded) -> Result<(), Failure> {
-    if record.cuts.is_empty() {
-        return Ok(());
-    }
-    let cuts: Vec<String> = record.cuts.iter().map(Cut::to_string).collect();
-    Err(Failure::Input(anyhow!(
-        "{}; exported is what can be read: {}",
-        cuts.join(", "),
-        span(record)
-    )))
 }
 
 fn span(record: &Recorded) -> String {

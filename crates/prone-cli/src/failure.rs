@@ -12,7 +12,8 @@ pub(crate) const STOPPED: u8 = 130;
 /// outermost is printed.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// What was typed or read is wrong: exit code 2, nothing was written.
+    /// What was typed or read is wrong: exit code 2. Nothing was written but what could be read of a
+    /// record that was cut off.
     Input(anyhow::Error),
     /// The work itself failed: exit code 1.
     Work(anyhow::Error),

@@ -12,6 +12,7 @@ mod cycle_search;
 mod export;
 mod failure;
 mod gait;
+mod incomplete;
 mod interrupt;
 mod lock;
 mod optimize;

@@ -1,5 +1,6 @@
 //! `prone reproduce`.
 
+use std::collections::BTreeMap;
 use std::io::Write as _;
 use std::time::Instant;
 
@@ -13,7 +14,7 @@ use prone_sim::crawl::CrawlError;
 use prone_sim::{Regime, World};
 use prone_study::output;
 use prone_study::published::TABLE_CRAWLS;
-use prone_study::reproduce::{self, ReproduceError, Reproduction};
+use prone_study::reproduce::{self, ReproduceError, Reproduction, Study};
 use prone_study::run_info::Program;
 use prone_study::summary::Summary;
 use prone_study::table_crawl::{TableError, TableStudy};
@@ -49,11 +50,17 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<(), Failure> {
         commit: env!("PRONE_COMMIT"),
     };
 
+    let gait_files = gait_files();
+    let study = Study {
+        robot: &robot,
+        plan: &plan,
+        gait_files: &gait_files,
+        table: table.as_ref(),
+    };
     let crawls = table.as_ref().map_or(0, |_| TABLE_CRAWLS.len());
     let progress = Progress::new(plan.phases() + crawls)?;
     let started = Instant::now();
-    let reproduction =
-        pool.install(|| reproduce::run(&robot, &plan, table.as_ref(), &program, &progress));
+    let reproduction = pool.install(|| reproduce::run(&study, &program, &progress));
     progress.finish();
     let mut reproduction = reproduction.map_err(failure)?;
     let timing = timing(&reproduction, started, pool.current_num_threads())?;
@@ -75,16 +82,32 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<(), Failure> {
 
 /// The crawl under the table, for a robot that has the joints which its cycle names.
 fn table_study(robot: &Robot) -> Result<Option<TableStudy>, Failure> {
-    let cycle = crate::gait::find_cycle(CYCLE)?.cycle;
-    let Some(scene) = shipped::scene(SCENE) else {
+    let gait = crate::gait::find_cycle(CYCLE)?;
+    let Some((scene, text)) = shipped::scene(SCENE).zip(shipped::scene_text(SCENE)) else {
         return Ok(None);
     };
     let scene = scene.map_err(Failure::input)?;
-    match CheckedCycle::plan(robot, &robot.stops(), &cycle, 0.0, TimeScale::ONE) {
-        Ok(_) => Ok(Some(TableStudy { cycle, scene })),
+    match CheckedCycle::plan(robot, &robot.stops(), &gait.cycle, 0.0, TimeScale::ONE) {
+        Ok(_) => Ok(Some(TableStudy {
+            gait,
+            scene,
+            scene_text: text.to_owned(),
+        })),
         Err(CycleError::UnknownJoint { .. }) => Ok(None),
         Err(error) => Err(Failure::input(error)),
     }
+}
+
+/// Path and text of the gaits' files, by name.
+fn gait_files() -> BTreeMap<String, (String, String)> {
+    let files = GAITS.into_iter().filter_map(|name| {
+        let text = shipped::gait_text(name)?;
+        Some((
+            name.to_owned(),
+            (format!("gaits/{name}.toml"), text.to_owned()),
+        ))
+    });
+    files.collect()
 }
 
 fn timing(

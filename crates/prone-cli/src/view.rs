@@ -8,10 +8,11 @@ use std::process::{Command, Stdio};
 
 use anyhow::anyhow;
 
+use prone_study::recorded;
 use prone_study::view::{self, record};
 
 use crate::args::ViewArgs;
-use crate::{Failure, table_file};
+use crate::{Failure, incomplete, table_file};
 
 /// What opens a page in the browser of the user's choice.
 const OPENER: &str = if cfg!(target_os = "macos") {
@@ -29,10 +30,6 @@ pub(crate) fn run(args: &ViewArgs) -> Result<(), Failure> {
         .collect();
     for folder in &folders {
         let run = record::read(folder).map_err(Failure::input)?;
-        for note in run.notes() {
-            // Where nobody hears, the page says it too.
-            let _ = writeln!(std::io::stderr(), "note: {}: {note}", folder.display());
-        }
         runs.push(run);
     }
     if let [first, second] = runs.as_mut_slice()
@@ -45,6 +42,12 @@ pub(crate) fn run(args: &ViewArgs) -> Result<(), Failure> {
         Some(out) => out.clone(),
         None => beside(&args.run)?,
     };
+    if out.is_dir() {
+        return Err(Failure::Input(anyhow!(
+            "--out {} is a folder: name a file in it",
+            out.display()
+        )));
+    }
     check_place(&out, &folders)?;
     let page = view::page(&runs.iter().collect::<Vec<_>>()).map_err(Failure::work)?;
     let name = out.display();
@@ -59,7 +62,9 @@ pub(crate) fn run(args: &ViewArgs) -> Result<(), Failure> {
         runs.iter().map(record::Run::rows).sum::<usize>(),
         page.len() as f64 / 1e6
     )?;
-    Ok(())
+    let notes = runs.iter().map(|run| run.notes().to_vec());
+    let records: Vec<_> = folders.into_iter().zip(notes).collect();
+    incomplete::say(&records)
 }
 
 /// `RUN.html`: a result folder is replaced whole, so nothing is put into it.
@@ -82,7 +87,7 @@ fn beside(folder: &Path) -> Result<PathBuf, Failure> {
 fn check_place(out: &Path, folders: &[&Path]) -> Result<(), Failure> {
     let files = folders
         .iter()
-        .flat_map(|folder| record::FILES.map(|file| folder.join(file)));
+        .flat_map(|folder| recorded::FILES.map(|file| folder.join(file)));
     let inputs: Vec<PathBuf> = files.collect();
     match table_file::same_file(out, &inputs) {
         None => Ok(()),

@@ -100,13 +100,18 @@ pub fn gait_names() -> impl Iterator<Item = &'static str> {
     GAITS.iter().map(|(name, _)| *name)
 }
 
+/// The text of a shipped gait's file.
+pub fn gait_text(name: &str) -> Option<&'static str> {
+    let (_, text) = GAITS.iter().find(|(known, _)| *known == name)?;
+    Some(text)
+}
+
 /// A shipped gait by name, `None` for any other name.
 ///
 /// # Errors
 /// [`FileError`] if the embedded text does not parse, which a test excludes.
 pub fn gait(name: &str) -> Option<Result<Gait, FileError>> {
-    let (_, text) = GAITS.iter().find(|(known, _)| *known == name)?;
-    Some(gait_file::parse(&format!("gaits/{name}.toml"), text))
+    gait_text(name).map(|text| gait_file::parse(&format!("gaits/{name}.toml"), text))
 }
 
 /// Names and texts of the scenes that ship with the program.

@@ -17,6 +17,7 @@ pub use effort::{Effort, JointEffort};
 pub use measure::{Advance, CycleRow, Row};
 pub use pilot::{
     Bearing, BearingSource, Decision, Exact, HoldHeading, HoldLine, Moment, Pilot, Stage, Straight,
+    bearing,
 };
 pub use slope::SlopeAware;
 pub use tops::{BodyPart, Tops};

@@ -14,8 +14,9 @@ use prone::gait::{CheckedTrajectory, Gait, PhaseDuration, TrajectoryError};
 use prone::mapping::Mapping;
 use prone::robot::JointAngles;
 
+use crate::crawl::{BodyPart, Tops};
 use crate::regime::CONTROL_STEP;
-use crate::simulation::{Placement, Simulation, SimulationError, Snapshot};
+use crate::simulation::{ContactForce, Placement, Simulation, SimulationError, Snapshot};
 use crate::world::World;
 
 /// How long the servos hold the start pose before the phase, s. From half a second on, longer
@@ -31,6 +32,18 @@ pub enum Start {
     /// The first sample of the gait itself, the trunk pitched as in its planar chain: what a crawl
     /// hands over, and what makes gaits comparable that begin differently.
     FirstPose,
+}
+
+/// What is kept of a phase.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Keep {
+    /// Its rows.
+    Rows,
+    /// What it takes to show it as well: [`Shown`] at each row, and positions for pictures.
+    Shown {
+        /// How many positions.
+        pictures: usize,
+    },
 }
 
 /// Record of one phase.
@@ -67,6 +80,19 @@ pub struct Row {
     pub head_top: f64,
     /// Pose of the root at the end of the step.
     pub ground_from_root: Transform<Ground, Root>,
+    /// What else is shown, where it is kept.
+    pub shown: Option<Shown>,
+}
+
+/// What a replay shows of one control step, at its end.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shown {
+    /// Phase of the command, 0 to 1.
+    pub s: f64,
+    /// Highest points by part of the body.
+    pub tops: Tops,
+    /// What the world does to the robot, contact by contact.
+    pub forces: Vec<ContactForce>,
 }
 
 /// Why a pull has no record.
@@ -113,7 +139,7 @@ pub fn plan(
     )
 }
 
-/// Runs one phase of a gait; `pictures` positions are kept for later ray casting.
+/// Runs one phase of a gait.
 ///
 /// # Errors
 /// [`PullError`].
@@ -122,7 +148,7 @@ pub fn run(
     gait: &Gait,
     duration: PhaseDuration,
     start: Start,
-    pictures: usize,
+    keep: Keep,
 ) -> Result<Pull, PullError> {
     let trajectory = plan(world, gait, duration)?;
     let placement = placement(world, gait, &trajectory, start)?;
@@ -132,7 +158,7 @@ pub fn run(
         source,
     };
     let settled = settle(world, &placement).map_err(broken)?;
-    proceed(settled, trajectory, pictures).map_err(broken)
+    proceed(settled, trajectory, keep).map_err(broken)
 }
 
 /// How the robot is laid down before the phase.
@@ -193,9 +219,14 @@ pub fn settle<'w>(
 pub fn proceed(
     mut simulation: Simulation<'_>,
     trajectory: CheckedTrajectory,
-    pictures: usize,
+    keep: Keep,
 ) -> Result<Pull, SimulationError> {
     let robot = simulation.robot();
+    let pictures = match keep {
+        Keep::Rows => 0,
+        Keep::Shown { pictures } => pictures,
+    };
+    let parts = BodyPart::of_shapes(robot);
     let start = simulation.ground_from_root();
     let steps = trajectory.samples().len() - 1;
     let mut snapshots = Vec::with_capacity(pictures);
@@ -216,6 +247,14 @@ pub fn proceed(
             top: robot.top(&poses, |_| true),
             head_top: robot.top(&poses, |shape| robot.bodies[shape.body.0].is_head),
             ground_from_root: simulation.ground_from_root(),
+            shown: match keep {
+                Keep::Rows => None,
+                Keep::Shown { .. } => Some(Shown {
+                    s: sample.s,
+                    tops: Tops::of(robot, &parts, &poses),
+                    forces: simulation.contact_forces(),
+                }),
+            },
         });
     }
     while snapshots.len() < pictures {

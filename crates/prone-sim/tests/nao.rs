@@ -9,7 +9,7 @@ use prone::frames::{Ground, Root, Transform};
 use prone::mapping::{ArmMode, Mapping, MappingVariant, SideGeometry};
 use prone::robot::{ContactGroup, Robot, Solid};
 use prone_files::shipped;
-use prone_sim::pull::{self, Start};
+use prone_sim::pull::{self, Keep, Start};
 use prone_sim::{LoadedRobot, Placement, Regime, RobotFiles, Simulation, World};
 
 fn nao() -> LoadedRobot {
@@ -295,7 +295,7 @@ fn regression_nominal_pull_of_five_seconds() {
     let world = World::new(&loaded, Regime::TORQUE_STUDY).unwrap();
     let gait = shipped::gait("nominal").unwrap().unwrap();
     let duration = prone::gait::PhaseDuration::new(5.0).unwrap();
-    let pull = pull::run(&world, &gait, duration, Start::Recorded, 0).unwrap();
+    let pull = pull::run(&world, &gait, duration, Start::Recorded, Keep::Rows).unwrap();
     assert_eq!(pull.rows.len(), 100);
     for (row, torques) in [
         (0, [0.006_892, -0.689_373, -1.182_582, -0.180_117]),
@@ -358,7 +358,7 @@ fn contact_groups_balance_the_weight_in_the_middle_of_the_pull() {
     let world = World::new(&loaded, Regime::TORQUE_STUDY).unwrap();
     let gait = shipped::gait("nominal").unwrap().unwrap();
     let duration = prone::gait::PhaseDuration::new(5.0).unwrap();
-    let pull = pull::run(&world, &gait, duration, Start::Recorded, 0).unwrap();
+    let pull = pull::run(&world, &gait, duration, Start::Recorded, Keep::Rows).unwrap();
     let row = &pull.rows[59];
     let poses = robot.forward_kinematics(row.ground_from_root, &row.angles);
     let weight = robot.mass() * 9.81;

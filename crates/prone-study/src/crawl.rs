@@ -5,6 +5,7 @@
 
 pub(crate) mod frames;
 mod model;
+pub(crate) mod pull;
 pub mod record;
 mod run;
 pub mod summary;

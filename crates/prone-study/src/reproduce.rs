@@ -1,18 +1,23 @@
 //! The published chapter's main result, as the files of one folder.
 
+use std::collections::BTreeMap;
+
 use rayon::prelude::*;
 use serde::Serialize;
 
 use prone_sim::{LoadedRobot, Regime, World, WorldError};
 
+use crate::crawl::pull::PullRecording;
+use crate::crawl::record::{RecordError, Recording};
 use crate::figures::{self, Figure, FigureError};
 use crate::frames::{Frames, FramesError};
 use crate::output::{Artefacts, RUN_FILE};
+use crate::recorded::Command;
 use crate::run_info::{Program, RunInfo};
 use crate::summary::{self, Summary};
 use crate::table_crawl::{self, TableError, TableResult, TableStudy};
-use crate::torque_study::{self, Observer, Plan, StudyError};
-use crate::{agreement, contact_story, frames, published, report, tables};
+use crate::torque_study::{self, Observer, Plan, StudyError, TorqueStudy};
+use crate::{agreement, contact_story, crawl, frames, published, report, tables};
 
 /// A finished reproduction.
 #[derive(Debug)]
@@ -43,6 +48,9 @@ pub enum ReproduceError {
     /// The frames of the simulated robot cannot be made.
     #[error(transparent)]
     Frames(#[from] FramesError),
+    /// A record has no files.
+    #[error(transparent)]
+    Record(#[from] RecordError),
     /// There is nothing to draw.
     #[error("the crawl under the table has no rows")]
     NoRows,
@@ -57,17 +65,31 @@ pub enum ReproduceError {
 /// Pixels per unit of an SVG figure in its PNG.
 pub(crate) const PNG_SCALE: f32 = 2.0;
 
+/// What is reproduced.
+#[derive(Debug, Clone, Copy)]
+pub struct Study<'a> {
+    /// With which robot.
+    pub robot: &'a LoadedRobot,
+    /// Which pulls.
+    pub plan: &'a Plan,
+    /// The files of their gaits, by the gaits' names: path and text.
+    pub gait_files: &'a BTreeMap<String, (String, String)>,
+    /// Which crawl, if any.
+    pub table: Option<&'a TableStudy>,
+}
+
 /// Runs the study on the current rayon pool and makes every file of the result.
 ///
 /// # Errors
 /// [`ReproduceError`].
 pub fn run(
-    robot: &LoadedRobot,
-    plan: &Plan,
-    table: Option<&TableStudy>,
+    studied: &Study<'_>,
     program: &Program,
     observer: &dyn Observer,
 ) -> Result<Reproduction, ReproduceError> {
+    let Study {
+        robot, plan, table, ..
+    } = *studied;
     let world = World::new(robot, Regime::TORQUE_STUDY)?;
     let (study, table_result) = rayon::join(
         || torque_study::run(&world, plan, observer),
@@ -103,15 +125,19 @@ pub fn run(
     );
     artefacts.insert("summary.json".into(), json(&summary)?);
     artefacts.insert(RUN_FILE.into(), json(&info)?);
+    artefacts.extend(pull_records(studied, &world, &study, program)?);
+    if let Some((table, result)) = table.zip(table_result.as_ref()) {
+        artefacts.extend(crawl_record(robot, table, result, program)?);
+    }
 
     let drawn = figures::study_figures(&study.chains, &study.pulls, &study.costs)?;
     let photographed = study
-        .snapshots
+        .shown
         .par_iter()
-        .map(|(gait, snapshots)| frames::of(&world, gait, study.showcase_s, snapshots))
+        .map(|(gait, pull)| frames::of(&world, &gait.name, study.showcase_s, &pull.snapshots))
         .collect::<Result<Vec<_>, _>>()?;
-    if let Some((_, snapshots)) = study.snapshots.first()
-        && let Some(middle) = snapshots.get(snapshots.len() / 2)
+    if let Some((_, pull)) = study.shown.first()
+        && let Some(middle) = pull.snapshots.get(pull.snapshots.len() / 2)
     {
         artefacts.insert("figures/crawl.png".into(), frames::cover(&world, middle)?);
     }
@@ -141,6 +167,62 @@ pub fn run(
     })
 }
 
+/// The pulls that pictures show, each in a folder that can be replayed and exported.
+fn pull_records(
+    studied: &Study<'_>,
+    world: &World,
+    study: &TorqueStudy,
+    program: &Program,
+) -> Result<Artefacts, RecordError> {
+    let mut artefacts = Artefacts::new();
+    for (gait, pull) in &study.shown {
+        let file = studied.gait_files.get(&gait.name);
+        let recording = PullRecording {
+            robot: studied.robot,
+            world,
+            gait,
+            file: file.map_or(("", ""), |(file, text)| (file, text)),
+            duration_s: study.showcase_s,
+            pull,
+        };
+        let folder = format!("pulls/{}-{}s", gait.name, study.showcase_s);
+        artefacts.extend(below(&folder, crawl::pull::files(&recording, program)?));
+    }
+    Ok(artefacts)
+}
+
+/// The shorter crawl under the table, likewise.
+fn crawl_record(
+    robot: &LoadedRobot,
+    table: &TableStudy,
+    result: &TableResult,
+    program: &Program,
+) -> Result<Artefacts, RecordError> {
+    let Some(experiment) = result.experiments.first() else {
+        return Ok(Artefacts::new());
+    };
+    let conditions = table.conditions(experiment);
+    let recording = Recording {
+        robot,
+        world: &result.world,
+        gait: &table.gait,
+        conditions: &conditions,
+        crawl: &result.shortest,
+        summary: &experiment.ours,
+    };
+    let files = crawl::record::numbers(&recording, Command::ReproduceCrawl, program)?;
+    let folder = format!("crawls/table-{}-cycles", experiment.published.cycles);
+    Ok(below(&folder, files))
+}
+
+/// The same files in a folder.
+fn below(folder: &str, files: Artefacts) -> Artefacts {
+    let named = files.into_iter();
+    named
+        .map(|(name, bytes)| (format!("{folder}/{name}"), bytes))
+        .collect()
+}
+
 /// Figures of the crawl under the table.
 pub(crate) struct CrawlFigures {
     pub(crate) frames: Frames,
@@ -148,10 +230,13 @@ pub(crate) struct CrawlFigures {
 }
 
 fn pictures(result: &TableResult) -> Result<CrawlFigures, ReproduceError> {
-    let (world, crawl) = (&result.world, &result.longest);
-    let gait = crawl.cycles.first().map_or("", |cycle| cycle.gait.as_str());
-    let frames = crate::crawl::frames::sequence(world, gait, crawl)?;
-    let angles = figures::crawl_angles(world.robot(), gait, crawl)?;
+    let (world, longest) = (&result.world, &result.longest);
+    let gait = longest
+        .cycles
+        .first()
+        .map_or("", |cycle| cycle.gait.as_str());
+    let frames = crawl::frames::sequence(world, gait, longest)?;
+    let angles = figures::crawl_angles(world.robot(), gait, longest)?;
     frames
         .zip(angles)
         .map(|(frames, angles)| CrawlFigures { frames, angles })

@@ -23,6 +23,7 @@ pub(crate) struct RunInfo {
     pub(crate) program: &'static str,
     #[serde(flatten)]
     pub(crate) built: Program,
+    pub(crate) command: &'static str,
     pub(crate) engine: String,
     pub(crate) robot: RobotInfo,
     pub(crate) options: Options,
@@ -70,8 +71,8 @@ pub(crate) struct TableInfo {
 impl TableInfo {
     fn of(study: &TableStudy) -> Self {
         Self {
-            gait: study.cycle.pull.name.clone(),
-            description: study.cycle.pull.description.clone(),
+            gait: study.gait.cycle.pull.name.clone(),
+            description: study.gait.cycle.pull.description.clone(),
             scene: study.scene.name.clone(),
             regime: Regime::LOCOMOTION.name,
             friction: Regime::LOCOMOTION.friction,
@@ -105,6 +106,7 @@ impl RunInfo {
         Self {
             program: "prone",
             built: program.clone(),
+            command: "reproduce",
             engine: prone_sim::engine_version(),
             robot: RobotInfo {
                 name: robot.robot().name.clone(),

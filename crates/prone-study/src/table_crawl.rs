@@ -2,14 +2,14 @@
 
 use serde::Serialize;
 
-use prone::gait::cycle::{Cycle, CycleError, TimeScale};
+use prone::gait::cycle::{CycleError, TimeScale};
 use prone::scene::Scene;
 use prone_sim::crawl::{
     self, Crawl, CrawlError, CrawlPlan, Decision, Detail, End, Moment, Pilot, Straight,
 };
 use prone_sim::{LoadedRobot, Regime, World, WorldError};
 
-use crate::crawl::{CrawlSummary, summary};
+use crate::crawl::{Conditions, CrawlSummary, GaitSource, summary};
 use crate::published::{TABLE_CRAWLS, TableCrawl};
 use crate::torque_study::Observer;
 
@@ -25,9 +25,11 @@ const OURS_BY: &str = "in simulation, displacement of the trunk's frame; at the 
 #[derive(Debug, Clone, PartialEq)]
 pub struct TableStudy {
     /// The cycle.
-    pub cycle: Cycle,
+    pub gait: GaitSource,
     /// The table.
     pub scene: Scene,
+    /// The text of its file.
+    pub scene_text: String,
 }
 
 /// One experiment, ours beside the published one.
@@ -49,6 +51,8 @@ pub struct TableExperiment {
 pub(crate) struct TableResult {
     pub(crate) world: World,
     pub(crate) experiments: Vec<TableExperiment>,
+    /// The shorter one, with rows.
+    pub(crate) shortest: Crawl,
     /// The longer one, with rows.
     pub(crate) longest: Crawl,
     pub(crate) engine_steps: usize,
@@ -93,6 +97,7 @@ pub(crate) fn run(
     Ok(TableResult {
         engine_steps: shortest.engine_steps + longest.engine_steps,
         experiments: vec![first, second],
+        shortest,
         longest,
         world,
     })
@@ -105,7 +110,7 @@ fn experiment(
     published: TableCrawl,
     observer: &dyn Observer,
 ) -> Result<(TableExperiment, Crawl), TableError> {
-    let cycles = [study.cycle.clone()];
+    let cycles = [study.gait.cycle.clone()];
     let plan = CrawlPlan {
         cycles: &cycles,
         scale: TimeScale::ONE,
@@ -114,7 +119,7 @@ fn experiment(
         detail: Detail::Rows,
     };
     let crawl = crawl::run(world, &plan, &mut Observed(observer))?;
-    let ours = summary::of(world, &study.cycle, TimeScale::ONE, &crawl, None)?;
+    let ours = summary::of(world, &study.gait.cycle, TimeScale::ONE, &crawl, None)?;
     observer.phase_done();
     let experiment = TableExperiment {
         experiment: number,
@@ -124,6 +129,25 @@ fn experiment(
         ours_obtained: OURS_BY,
     };
     Ok((experiment, crawl))
+}
+
+impl TableStudy {
+    /// Under which conditions an experiment was crawled.
+    pub(crate) fn conditions(&self, experiment: &TableExperiment) -> Conditions {
+        Conditions {
+            most_cycles: experiment.published.cycles,
+            until_past_mm: None,
+            time_scale: TimeScale::ONE.value(),
+            steering: "none",
+            turn_command_deg: 0.0,
+            heading_deg: None,
+            joint_offset_deg: 0.0,
+            seed: None,
+            joint_offsets_rad: Vec::new(),
+            scene_text: Some(self.scene_text.clone()),
+            uphill: None,
+        }
+    }
 }
 
 impl TableExperiment {

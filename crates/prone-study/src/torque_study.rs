@@ -8,8 +8,8 @@ use prone::cost::{CostError, squared_torque_integral};
 use prone::gait::{CheckedTrajectory, Gait, PhaseDuration, TrajectoryError};
 use prone::mapping::MappingVariant;
 use prone::robot::{JointAngles, Robot};
-use prone_sim::pull::{self, Pull, PullError, Start};
-use prone_sim::{Snapshot, World};
+use prone_sim::World;
+use prone_sim::pull::{self, Keep, Pull, PullError, Start};
 
 use crate::published;
 use crate::record::{
@@ -47,8 +47,8 @@ pub struct TorqueStudy {
     pub costs: Vec<CostRecord>,
     /// Costs of the same gaits under the mapping `exact`, at the showcase duration.
     pub exact_costs: Vec<CostRecord>,
-    /// Positions of each gait at the showcase duration, for pictures.
-    pub snapshots: Vec<(String, Vec<Snapshot>)>,
+    /// Each gait at the showcase duration, with what pictures and replay show.
+    pub shown: Vec<(Gait, Pull)>,
     /// The duration that pictures and the contact story show.
     pub showcase_s: f64,
     /// Engine steps done in all.
@@ -83,9 +83,20 @@ pub enum StudyError {
 struct Job {
     gait: Gait,
     duration: PhaseDuration,
-    pictures: usize,
     /// Whether it belongs to the study proper, not to the comparison of mappings.
     proper: bool,
+    /// Whether it is shown.
+    showcase: bool,
+}
+
+impl Job {
+    const fn keep(&self) -> Keep {
+        if self.showcase {
+            Keep::Shown { pictures: PICTURES }
+        } else {
+            Keep::Rows
+        }
+    }
 }
 
 /// Runs the study on the current rayon pool.
@@ -102,13 +113,7 @@ pub fn run(world: &World, plan: &Plan, observer: &dyn Observer) -> Result<Torque
             if observer.stop() {
                 return Err(StudyError::Stopped);
             }
-            let pull = pull::run(
-                world,
-                &job.gait,
-                job.duration,
-                Start::Recorded,
-                job.pictures,
-            )?;
+            let pull = pull::run(world, &job.gait, job.duration, Start::Recorded, job.keep())?;
             observer.phase_done();
             Ok(pull)
         })
@@ -121,7 +126,7 @@ pub fn run(world: &World, plan: &Plan, observer: &dyn Observer) -> Result<Torque
         clamps: Vec::new(),
         costs: Vec::new(),
         exact_costs: Vec::new(),
-        snapshots: Vec::new(),
+        shown: Vec::new(),
         showcase_s: showcase.seconds(),
         engine_steps: 0,
     };
@@ -141,10 +146,8 @@ pub fn run(world: &World, plan: &Plan, observer: &dyn Observer) -> Result<Torque
             study.costs.push(cost);
             study.runs.push(run_record(job, &pull));
             study.pulls.push(record);
-            if job.pictures > 0 {
-                study
-                    .snapshots
-                    .push((job.gait.name.clone(), pull.snapshots));
+            if job.showcase {
+                study.shown.push((job.gait.clone(), pull));
             }
         } else {
             study.exact_costs.push(cost);
@@ -160,12 +163,8 @@ fn jobs(plan: &Plan) -> Vec<Job> {
             jobs.push(Job {
                 gait: gait.clone(),
                 duration,
-                pictures: if duration == plan.showcase {
-                    PICTURES
-                } else {
-                    0
-                },
                 proper: true,
+                showcase: duration == plan.showcase,
             });
         }
     }
@@ -176,8 +175,8 @@ fn jobs(plan: &Plan) -> Vec<Job> {
                 ..gait.clone()
             },
             duration: plan.showcase,
-            pictures: 0,
             proper: false,
+            showcase: false,
         });
     }
     jobs

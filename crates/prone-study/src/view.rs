@@ -6,7 +6,6 @@
 
 mod pack;
 pub mod record;
-mod table;
 
 use maud::{DOCTYPE, PreEscaped, html};
 use serde::Serialize;

@@ -11,7 +11,7 @@ use prone::cost::published::PublishedRules;
 use prone::gait::{Gait, PhaseDuration};
 use prone::torque_map::{self, TorqueMap};
 use prone_files::shipped;
-use prone_sim::pull::{self, Start};
+use prone_sim::pull::{self, Keep, Start};
 use prone_sim::{LoadedRobot, Regime, RobotFiles, World};
 use prone_study::optimize::dynamic::{DynamicPricing, DynamicSetup};
 use prone_study::optimize::objective::Objective;
@@ -85,7 +85,7 @@ fn a_pull_from_a_settled_clone_is_the_same_pull() {
     let loaded = nao();
     let world = World::new(&loaded, Regime::TORQUE_STUDY).unwrap();
     let (nominal, duration) = (gait("nominal"), seconds(0.5));
-    let alone = pull::run(&world, &nominal, duration, Start::FirstPose, 0).unwrap();
+    let alone = pull::run(&world, &nominal, duration, Start::FirstPose, Keep::Rows).unwrap();
     let pricing =
         DynamicPricing::new(&world, &nominal, setup(&world, Objective::TORQUE, duration)).unwrap();
     for _ in 0..2 {
@@ -94,7 +94,7 @@ fn a_pull_from_a_settled_clone_is_the_same_pull() {
     // One that begins elsewhere is settled there.
     let mut lower = nominal.clone();
     lower.hip = prone::gait::Curve::constant(0.3).unwrap();
-    let alone = pull::run(&world, &lower, duration, Start::FirstPose, 0).unwrap();
+    let alone = pull::run(&world, &lower, duration, Start::FirstPose, Keep::Rows).unwrap();
     assert_eq!(pricing.trial(&lower).unwrap().pull, alone);
 }
 

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
+use prone_study::recorded::Part;
+
 /// Smallest and largest edge of a picture, pixels.
 const EDGE: std::ops::RangeInclusive<usize> = 16..=4096;
 
@@ -16,9 +18,11 @@ Examples:
   prone export out/low --format mp4 --view follow  needs ffmpeg
   prone export out/low --format gif --view side --size 480x270 --fps 10
 
-RUN is a folder that `prone crawl run --record` has written. csv, mcap, npz and the pictures show what
-was simulated; urdf is the robot; xar and keyframes are one cycle as the gait commands it, without
-turning. A record that was cut off is exported as far as it goes; the exit code is then 2.")]
+RUN is a folder that `prone crawl run --record` has written, or one of pulls/ and crawls/ in the
+result of `prone reproduce`. csv, mcap, npz and the pictures show what was simulated; urdf is the
+robot; xar and keyframes are one cycle as the gait commands it, without turning. Of a record that was
+cut off, csv and the pictures show the instants that are left, mcap and npz also the contacts that
+are left; the exit code is then 2. urdf, xar and keyframes need neither.")]
 pub(crate) struct ExportArgs {
     /// Folder of a recorded run
     #[arg(value_name = "RUN")]
@@ -82,6 +86,15 @@ pub(crate) enum ViewName {
 }
 
 impl Format {
+    /// Of which tables of a record it is made; the others need none.
+    pub(crate) const fn parts(self) -> &'static [Part] {
+        match self {
+            Self::Csv | Self::Mp4 | Self::Webp | Self::Gif => &[Part::Rows],
+            Self::Npz | Self::Mcap => &[Part::Rows, Part::Contacts],
+            Self::Urdf | Self::Xar | Self::Keyframes => &[],
+        }
+    }
+
     /// The file's ending.
     pub(crate) const fn ending(self) -> &'static str {
         match self {

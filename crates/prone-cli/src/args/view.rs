@@ -8,11 +8,14 @@ Examples:
   prone crawl run --gait low-175 --cycles 3 --record out/low
   prone view out/low --open               out/low.html, in the browser
   prone view out/low --compare out/table --out both.html
+  prone view out/pulls/nominal-5s --compare out/pulls/optimal-5s   after prone reproduce
 
 The page holds all it needs: it loads nothing, works without a network, and can be sent to others.
+Of a record that was cut off it shows what is left; the exit code is then 2.
 Press ? in it for its keys. #t=2.4&view=side behind its address opens it at an instant.")]
 pub(crate) struct ViewArgs {
-    /// A folder that `prone crawl run --record` wrote
+    /// A recorded run: a folder that `prone crawl run --record` wrote, or one of pulls/ and crawls/ in
+    /// the result of `prone reproduce`
     #[arg(value_name = "RUN")]
     pub(crate) run: PathBuf,
     /// A second run, side by side or as a ghost

@@ -24,7 +24,7 @@ pub(super) fn run(args: &ExportArgs, record: &Recorded, out: &Path) -> Result<St
     let shot = shot(args, record)?;
     table_file::check_place(out)
         .map_err(|error| Failure::Input(anyhow!("cannot write {}: {error}", out.display())))?;
-    let robot = origin::robot(args, record)?;
+    let robot = origin::robot(args, &record.run)?;
     let world = origin::world(&robot, record)?;
     let film = Film::new(&world, record, shot).map_err(Failure::input)?;
     match args.format {

@@ -7,15 +7,15 @@ use anyhow::anyhow;
 use prone::scene::Scene;
 use prone_files::{scene_file, shipped};
 use prone_sim::{LoadedRobot, Regime, RobotFiles, World};
-use prone_study::recorded::Recorded;
+use prone_study::recorded::{Recorded, RecordedRun};
 
 use crate::Failure;
 use crate::args::ExportArgs;
 
-/// The robot that crawled: of --robot, the one that ships, or that of the folder in the record. Its
-/// files must be those of the record.
-pub(super) fn robot(args: &ExportArgs, record: &Recorded) -> Result<LoadedRobot, Failure> {
-    let recorded = &record.run.robot;
+/// The files of the robot that crawled: of --robot, the one that ships, or that of the folder in
+/// the record. They must be those of the record.
+pub(super) fn files(args: &ExportArgs, run: &RecordedRun) -> Result<RobotFiles, Failure> {
+    let recorded = &run.robot;
     let shipped = RobotFiles::shipped(&shipped::NAO);
     let files = match &args.robot {
         Some(folder) => RobotFiles::read(folder).map_err(Failure::input)?,
@@ -34,7 +34,12 @@ pub(super) fn robot(args: &ExportArgs, record: &Recorded) -> Result<LoadedRobot,
             recorded.name
         )));
     }
-    LoadedRobot::load(files).map_err(Failure::input)
+    Ok(files)
+}
+
+/// The robot of these files.
+pub(super) fn robot(args: &ExportArgs, run: &RecordedRun) -> Result<LoadedRobot, Failure> {
+    LoadedRobot::load(files(args, run)?).map_err(Failure::input)
 }
 
 /// Robot and scene, to be looked at.

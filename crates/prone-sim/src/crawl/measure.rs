@@ -1,7 +1,5 @@
 //! What is measured in a crawl.
 
-use glam::DVec3;
-
 use prone::frames::{Ground, Root, Transform};
 use prone::gait::cycle::CheckedCycle;
 use prone::robot::JointAngles;
@@ -188,11 +186,7 @@ impl Meter {
             touches: Touches::new(world),
             snapshots: Vec::new(),
             detail,
-            parts: robot
-                .shapes
-                .iter()
-                .map(|shape| BodyPart::of(robot, shape))
-                .collect(),
+            parts: BodyPart::of_shapes(robot),
             limits: limits.collect(),
             begin: None,
             cycle: None,
@@ -303,12 +297,7 @@ impl Meter {
             return;
         };
         let poses = simulation.body_poses();
-        let mut tops = Tops::NONE;
-        for (shape, part) in robot.shapes.iter().zip(&self.parts) {
-            let top = shape.reach_along(poses.of(shape.body), DVec3::Z);
-            let place = &mut tops.0[*part as usize];
-            *place = place.max(top);
-        }
+        let tops = Tops::of(robot, &self.parts, &poses);
         cycle.tops.raise(&tops);
         if self.detail == Detail::Sums {
             return;

@@ -166,7 +166,7 @@ impl Moment<'_, '_> {
 /// Where a prone robot is and where it heads.
 ///
 /// It lies on its belly, so that forward is where the top of its trunk points: the root's z axis.
-pub(super) fn bearing(ground_from_root: &Transform<Ground, Root>) -> Bearing {
+pub fn bearing(ground_from_root: &Transform<Ground, Root>) -> Bearing {
     let ahead = ground_from_root.rotate(DVec3::Z);
     let origin = ground_from_root.origin().metres();
     Bearing {

@@ -1,6 +1,9 @@
 //! How high each part of the body comes.
 
-use prone::robot::{ContactGroup, Robot, Shape};
+use glam::DVec3;
+
+use prone::frames::Ground;
+use prone::robot::{BodyPoses, ContactGroup, Robot, Shape};
 
 /// A part of the body whose height is recorded apart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -43,6 +46,12 @@ impl BodyPart {
             ContactGroup::Leg => Self::Legs,
         }
     }
+
+    /// The parts that a robot's shapes belong to, in their order.
+    pub fn of_shapes(robot: &Robot) -> Vec<Self> {
+        let shapes = robot.shapes.iter();
+        shapes.map(|shape| Self::of(robot, shape)).collect()
+    }
 }
 
 /// Highest points above the floor, m, by [`BodyPart::ALL`].
@@ -52,6 +61,17 @@ pub struct Tops(pub [f64; 5]);
 impl Tops {
     /// Of nothing yet.
     pub const NONE: Self = Self([f64::NEG_INFINITY; 5]);
+
+    /// Of a robot in its poses; `parts` are those of its shapes.
+    pub fn of(robot: &Robot, parts: &[BodyPart], poses: &BodyPoses<Ground>) -> Self {
+        let mut tops = Self::NONE;
+        for (shape, part) in robot.shapes.iter().zip(parts) {
+            let top = shape.reach_along(poses.of(shape.body), DVec3::Z);
+            let place = &mut tops.0[*part as usize];
+            *place = place.max(top);
+        }
+        tops
+    }
 
     /// Of all parts.
     pub fn highest(&self) -> f64 {

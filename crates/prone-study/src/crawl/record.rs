@@ -1,14 +1,17 @@
 //! The files of a record folder.
 
-use prone_sim::crawl::Crawl;
+use prone_sim::crawl::{Bearing, COMMAND_STEP, Crawl, ROW_STEP};
 use prone_sim::{LoadedRobot, World};
+use serde::Serialize;
 
-use super::run::{Conditions, CrawlRunInfo, GaitSource};
+use super::run::{Conditions, GaitSource, RecordInfo, Subject};
 use super::summary::CrawlSummary;
+use super::tables::Instant;
 use super::{frames, model, tables};
 use crate::figures::{self, FigureError};
 use crate::frames::FramesError;
 use crate::output::{Artefacts, RUN_FILE};
+use crate::recorded::{CONTACTS_FILE, Command, Extent, MODEL_FILE, ROWS_FILE};
 use crate::reproduce::{PNG_SCALE, insert_figure, json};
 use crate::run_info::Program;
 
@@ -53,25 +56,12 @@ pub struct Recording<'a> {
 /// [`RecordError`].
 pub fn files(recording: &Recording<'_>, program: &Program) -> Result<Artefacts, RecordError> {
     let Recording {
-        robot,
         world,
-        gait,
-        conditions,
         crawl,
         summary,
+        ..
     } = *recording;
-    let mut artefacts = Artefacts::new();
-    let info = CrawlRunInfo::of(robot, world, gait, conditions, program);
-    artefacts.insert(RUN_FILE.into(), json(&info)?);
-    artefacts.insert("summary.json".into(), json(summary)?);
-    artefacts.insert("model.json".into(), json(&model::of(world))?);
-    artefacts.insert("cycles.csv".into(), tables::cycles(summary)?);
-    artefacts.insert("rows.csv".into(), tables::rows(world.robot(), crawl)?);
-    artefacts.insert("contacts.csv".into(), tables::contacts(world, crawl)?);
-    artefacts.insert(
-        "plate-contacts.csv".into(),
-        tables::plate_contacts(summary)?,
-    );
+    let mut artefacts = numbers(recording, Command::Crawl, program)?;
     if let Some(frames) = frames::sequence(world, &summary.gait, crawl)? {
         insert_figure(&mut artefacts, frames.figure, frames.png);
     }
@@ -79,5 +69,63 @@ pub fn files(recording: &Recording<'_>, program: &Program) -> Result<Artefacts, 
         let png = figure.png(PNG_SCALE)?;
         insert_figure(&mut artefacts, figure, png);
     }
+    Ok(artefacts)
+}
+
+/// All files but the figures.
+pub(crate) fn numbers(
+    recording: &Recording<'_>,
+    command: Command,
+    program: &Program,
+) -> Result<Artefacts, RecordError> {
+    let Recording {
+        robot,
+        world,
+        gait,
+        conditions,
+        crawl,
+        summary,
+    } = *recording;
+    let subject = Subject {
+        command,
+        gait: &gait.cycle.pull,
+        file: (&gait.file, &gait.text),
+        command_step_s: COMMAND_STEP,
+        extent: Extent {
+            rows: crawl.rows.len(),
+            row_step_s: ROW_STEP,
+        },
+        options: conditions,
+    };
+    let start = crawl
+        .cycles
+        .first()
+        .map_or_else(Default::default, |cycle| cycle.from);
+    let info = RecordInfo::of(robot, world, &subject, program);
+    let instants: Vec<Instant<'_>> = crawl.rows.iter().map(Instant::of).collect();
+    let mut artefacts = shown(world, &info, start, &instants)?;
+    artefacts.insert("summary.json".into(), json(summary)?);
+    artefacts.insert("cycles.csv".into(), tables::cycles(summary)?);
+    artefacts.insert(
+        "plate-contacts.csv".into(),
+        tables::plate_contacts(summary)?,
+    );
+    Ok(artefacts)
+}
+
+/// The files that replay and exports need.
+pub(super) fn shown(
+    world: &World,
+    info: &impl Serialize,
+    start: Bearing,
+    instants: &[Instant<'_>],
+) -> Result<Artefacts, RecordError> {
+    let mut artefacts = Artefacts::new();
+    artefacts.insert(RUN_FILE.into(), json(info)?);
+    artefacts.insert(MODEL_FILE.into(), json(&model::of(world))?);
+    let rows = tables::rows(world.robot(), start, instants)?;
+    artefacts.insert(ROWS_FILE.into(), rows);
+    let contacts = tables::contacts(world, instants)?;
+    artefacts.insert(CONTACTS_FILE.into(), contacts);
     Ok(artefacts)
 }

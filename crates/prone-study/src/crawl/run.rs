@@ -1,13 +1,14 @@
-//! Under which conditions a crawl was simulated: `run.json`.
+//! Under which conditions a crawl or a pull was simulated: `run.json`.
 
 use serde::Serialize;
 
+use prone::gait::Gait;
 use prone::gait::cycle::Cycle;
 use prone::robot::{JointAngles, Robot};
-use prone_sim::crawl::COMMAND_STEP;
 use prone_sim::regime::{Effort, SERVO_RATE, SOLIMP, SOLREF, Servo, Stops};
 use prone_sim::{LoadedRobot, World};
 
+use crate::recorded::{Command, Extent};
 use crate::run_info::{Program, RobotInfo};
 
 /// A crawl that ends past the obstacles of its scene.
@@ -67,18 +68,31 @@ impl Conditions {
     }
 }
 
+/// What tells one record from another: which command made it, of what, how long.
+pub(super) struct Subject<'a, O> {
+    pub(super) command: Command,
+    pub(super) gait: &'a Gait,
+    /// The gait's file, as the user named it, and its text.
+    pub(super) file: (&'a str, &'a str),
+    /// Time between two commands, s.
+    pub(super) command_step_s: f64,
+    pub(super) extent: Extent,
+    pub(super) options: &'a O,
+}
+
 #[derive(Debug, Clone, Serialize)]
-pub(super) struct CrawlRunInfo<'a> {
+pub(super) struct RecordInfo<'a, O> {
     program: &'static str,
     #[serde(flatten)]
     built: Program,
-    command: &'static str,
+    command: Command,
     engine: String,
     robot: RobotInfo,
     gait: GaitInfo<'a>,
     scene: SceneInfo<'a>,
     regime: RegimeInfo,
-    options: &'a Conditions,
+    options: &'a O,
+    record: Extent,
 }
 
 #[derive(Debug, Clone, Serialize)]
@@ -118,20 +132,20 @@ struct RegimeInfo {
     solimp: [f64; 5],
 }
 
-impl<'a> CrawlRunInfo<'a> {
+impl<'a, O> RecordInfo<'a, O> {
     pub(super) fn of(
         robot: &LoadedRobot,
         world: &'a World,
-        gait: &'a GaitSource,
-        conditions: &'a Conditions,
+        subject: &Subject<'a, O>,
         program: &Program,
     ) -> Self {
+        let (gait, (file, text)) = (subject.gait, subject.file);
         let (regime, scene) = (world.regime(), world.scene());
         let sides = scene.floor.friction;
         Self {
             program: "prone",
             built: program.clone(),
-            command: "crawl run",
+            command: subject.command,
             engine: prone_sim::engine_version(),
             robot: RobotInfo {
                 name: robot.robot().name.clone(),
@@ -139,12 +153,12 @@ impl<'a> CrawlRunInfo<'a> {
                 sha256: robot.files().hash(),
             },
             gait: GaitInfo {
-                name: &gait.cycle.pull.name,
-                description: &gait.cycle.pull.description,
-                file: &gait.file,
-                mapping: gait.cycle.pull.mapping.name(),
-                arm: gait.cycle.pull.arm.name(),
-                text: &gait.text,
+                name: &gait.name,
+                description: &gait.description,
+                file,
+                mapping: gait.mapping.name(),
+                arm: gait.arm.name(),
+                text,
             },
             scene: SceneInfo {
                 name: &scene.name,
@@ -173,12 +187,13 @@ impl<'a> CrawlRunInfo<'a> {
                 servo_rate_per_s: SERVO_RATE,
                 servo_speed_rad_s: regime.servo_speed,
                 time_step_s: regime.time_step,
-                command_step_s: COMMAND_STEP,
+                command_step_s: subject.command_step_s,
                 settle_s: prone_sim::pull::SETTLE,
                 solref: SOLREF,
                 solimp: SOLIMP,
             },
-            options: conditions,
+            options: subject.options,
+            record: subject.extent,
         }
     }
 }

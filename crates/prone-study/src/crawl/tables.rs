@@ -1,8 +1,9 @@
 //! The tables of a record folder as CSV.
 
-use prone::robot::{ContactGroup, Robot};
-use prone_sim::World;
-use prone_sim::crawl::{BodyPart, Crawl, Row, Stage};
+use prone::frames::{Ground, Root, Transform};
+use prone::robot::{ContactGroup, JointAngles, Robot};
+use prone_sim::crawl::{Bearing, BodyPart, Row, Stage, Tops, bearing};
+use prone_sim::{ContactForce, World, pull};
 
 use super::obstacle_name;
 use super::summary::CrawlSummary;
@@ -61,8 +62,65 @@ pub(super) fn cycles(summary: &CrawlSummary) -> Result<Vec<u8>, csv::Error> {
     finish(table)
 }
 
-/// `rows.csv`.
-pub(super) fn rows(robot: &Robot, crawl: &Crawl) -> Result<Vec<u8>, csv::Error> {
+/// One instant of a crawl or a pull.
+pub(super) struct Instant<'a> {
+    time: f64,
+    cycle: usize,
+    /// Phase of the pull; nothing in a recovery.
+    s: Option<f64>,
+    command: &'a JointAngles,
+    angles: &'a JointAngles,
+    actuator_torque: &'a [f64],
+    contact: [f64; 4],
+    forces: &'a [ContactForce],
+    ground_from_root: Transform<Ground, Root>,
+    tops: Tops,
+}
+
+impl<'a> Instant<'a> {
+    /// Of a crawl.
+    pub(super) fn of(row: &'a Row) -> Self {
+        Self {
+            time: row.time,
+            cycle: row.cycle,
+            s: match row.stage {
+                Stage::Pull { s, .. } => Some(s),
+                Stage::Recovery => None,
+            },
+            command: &row.command,
+            angles: &row.angles,
+            actuator_torque: &row.actuator_torque,
+            contact: row.contact,
+            forces: &row.forces,
+            ground_from_root: row.ground_from_root,
+            tops: row.tops,
+        }
+    }
+
+    /// Of a pull, where what is shown was kept.
+    pub(super) fn of_pull(row: &'a pull::Row) -> Option<Self> {
+        let shown = row.shown.as_ref()?;
+        Some(Self {
+            time: row.time,
+            cycle: 0,
+            s: Some(shown.s),
+            command: &row.command,
+            angles: &row.angles,
+            actuator_torque: &row.actuator_torque,
+            contact: row.contact,
+            forces: &shown.forces,
+            ground_from_root: row.ground_from_root,
+            tops: shown.tops,
+        })
+    }
+}
+
+/// `rows.csv`; yaw and what is lateral are seen from `start`.
+pub(super) fn rows(
+    robot: &Robot,
+    start: Bearing,
+    instants: &[Instant<'_>],
+) -> Result<Vec<u8>, csv::Error> {
     let mut table = csv::Writer::from_writer(Vec::new());
     let mut header: Vec<String> = [
         "time_s",
@@ -91,16 +149,14 @@ pub(super) fn rows(robot: &Robot, crawl: &Crawl) -> Result<Vec<u8>, csv::Error> 
     }
     header.extend(ContactGroup::ALL.map(|group| format!("{}_n", group.name())));
     header.extend(tops());
+    // By which a reader knows whether contacts.csv is whole.
+    header.push("contacts".to_owned());
     table.write_record(&header)?;
-    let start = crawl
-        .cycles
-        .first()
-        .map_or_else(Default::default, |cycle| cycle.from);
     let (sin, cos) = start.yaw.sin_cos();
-    for row in &crawl.rows {
-        let (stage, s) = match row.stage {
-            Stage::Pull { s, .. } => ("pull", number(s, 4)),
-            Stage::Recovery => ("recovery", String::new()),
+    for row in instants {
+        let (stage, s) = match row.s {
+            Some(s) => ("pull", number(s, 4)),
+            None => ("recovery", String::new()),
         };
         let root = row.ground_from_root;
         let (at, turn) = (root.origin().metres(), root.rotation());
@@ -113,23 +169,18 @@ pub(super) fn rows(robot: &Robot, crawl: &Crawl) -> Result<Vec<u8>, csv::Error> 
         cells.extend(at.to_array().map(|metres| number(metres * 1e3, 3)));
         cells.extend([turn.w, turn.x, turn.y, turn.z].map(|part| number(part, 7)));
         let (dx, dy) = (at.x - start.x, at.y - start.y);
-        cells.push(number(yaw(row).to_degrees(), 4));
+        cells.push(number(bearing(&root).yaw.to_degrees(), 4));
         cells.push(number((cos * dy - sin * dx) * 1e3, 3));
         let angles = row.command.as_slice().iter().zip(row.angles.as_slice());
-        for ((command, angle), torque) in angles.zip(&row.actuator_torque) {
+        for ((command, angle), torque) in angles.zip(row.actuator_torque) {
             cells.extend([number(*command, 6), number(*angle, 6), number(*torque, 5)]);
         }
         cells.extend(row.contact.map(|force| number(force, 4)));
         cells.extend(row.tops.0.map(|top| number(top * 1e3, 3)));
+        cells.push(row.forces.len().to_string());
         table.write_record(&cells)?;
     }
     finish(table)
-}
-
-/// A prone robot heads where the top of its trunk points.
-fn yaw(row: &Row) -> f64 {
-    let ahead = row.ground_from_root.rotate(glam::DVec3::Z);
-    ahead.y.atan2(ahead.x)
 }
 
 fn tops() -> [String; 5] {
@@ -137,13 +188,13 @@ fn tops() -> [String; 5] {
 }
 
 /// `contacts.csv`.
-pub(super) fn contacts(world: &World, crawl: &Crawl) -> Result<Vec<u8>, csv::Error> {
+pub(super) fn contacts(world: &World, instants: &[Instant<'_>]) -> Result<Vec<u8>, csv::Error> {
     let mut table = csv::Writer::from_writer(Vec::new());
     table.write_record([
         "time_s", "body", "with", "x_mm", "y_mm", "z_mm", "fx_n", "fy_n", "fz_n",
     ])?;
-    for row in &crawl.rows {
-        for contact in &row.forces {
+    for row in instants {
+        for contact in row.forces {
             let with = contact.obstacle.map_or_else(
                 || "floor".to_owned(),
                 |index| obstacle_name(world.obstacles(), index),

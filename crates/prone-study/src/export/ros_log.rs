@@ -11,7 +11,7 @@
 //!
 //! The wrench is the sum over the points in which the body touches that thing at that instant, its
 //! moment taken about the origin of the body's frame, both in that frame: what a sensor there would
-//! measure. It is zero while they do not touch. Times count from the beginning of the first pull.
+//! measure. It is zero while they do not touch; where `contacts.csv` breaks off, it ends. Times count from the beginning of the first pull.
 
 mod cdr;
 
@@ -95,6 +95,7 @@ pub fn of(record: &Recorded) -> Result<Vec<u8>, McapError> {
     }
     let speeds = record.joint_speeds();
     let mut contacts = record.contacts.as_slice();
+    let mut counts = record.contact_counts.iter();
     for (row, speeds) in record.rows.iter().zip(&speeds) {
         let stamp = Stamp::of(row.time_s);
         let angles = [row.angles.as_slice(), speeds, &row.actuator_torque_nm];
@@ -102,14 +103,15 @@ pub fn of(record: &Recorded) -> Result<Vec<u8>, McapError> {
         let command = [row.command.as_slice(), &[], &[]];
         log.write(commands, stamp, &joints(record, stamp, command))?;
         log.write(poses, stamp, &transforms(record, row, stamp))?;
+        // What is not known is not zero: then there is no message.
+        let Some(&count) = counts.next() else {
+            continue;
+        };
+        let (now, later) = contacts.split_at(count);
+        contacts = later;
         let mut sums: BTreeMap<Pair<'_>, Wrench> = BTreeMap::new();
         let bodies = record.ground_from_bodies(row);
-        while let Some((contact, rest)) = contacts.split_first() {
-            // Times have four decimals in both tables.
-            if contact.time_s > row.time_s + 1e-5 {
-                break;
-            }
-            contacts = rest;
+        for contact in now {
             let ground_from_body = bodies[contact.body];
             let body_from_ground = ground_from_body.rotation().inverse();
             let arm = contact.at.metres() - ground_from_body.origin().metres();

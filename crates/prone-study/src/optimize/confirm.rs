@@ -12,7 +12,7 @@ use prone::cost::CostError;
 use prone::gait::{Gait, PhaseDuration};
 use prone::robot::Robot;
 use prone_sim::World;
-use prone_sim::pull::{self, Pull, PullError, Start};
+use prone_sim::pull::{self, Keep, Pull, PullError, Start};
 
 use super::dynamic::{self, TrialError};
 use super::objective::{NoMotor, Objective};
@@ -192,7 +192,13 @@ impl Refusal {
 impl Job<'_> {
     fn measure(&self, objective: &Objective) -> Result<Result<Row, Refusal>, ConfirmError> {
         let robot = self.world.robot();
-        let pull = match pull::run(self.world, self.gait, self.duration, Start::FirstPose, 0) {
+        let pull = match pull::run(
+            self.world,
+            self.gait,
+            self.duration,
+            Start::FirstPose,
+            Keep::Rows,
+        ) {
             Ok(pull) => pull,
             Err(error) => return Ok(Err(self.refusal(&error))),
         };

@@ -24,7 +24,7 @@ use prone::gait::{Gait, PhaseDuration};
 use prone::mapping::{Mapping, MappingError};
 use prone::robot::{ContactGroup, Robot};
 use prone::torque_map::JointTorques;
-use prone_sim::pull::{self, Pull, PullError, Start};
+use prone_sim::pull::{self, Keep, Pull, PullError, Start};
 use prone_sim::regime::CONTROL_STEP;
 use prone_sim::{Placement, Simulation, World};
 
@@ -119,12 +119,13 @@ impl<'w> DynamicPricing<'w> {
             Some((begun, simulation)) if *begun == placement => simulation.clone(),
             _ => self.begin(gait)?.1,
         };
-        let pull =
-            pull::proceed(simulation, trajectory, 0).map_err(|source| PullError::Simulation {
+        let pull = pull::proceed(simulation, trajectory, Keep::Rows).map_err(|source| {
+            PullError::Simulation {
                 gait: gait.name.clone(),
                 duration_s: duration.seconds(),
                 source,
-            })?;
+            }
+        })?;
         let torque = torque_part(self.world.robot(), &pull, &self.setup.norm)?;
         let torque = match self.setup.share.of(self.mapping.chain(), gait) {
             Per::Phase => torque,

@@ -1,191 +1,183 @@
-//! The tables of a record: cells to SI.
+//! A CSV file up to where it breaks off.
+
+use std::path::Path;
 
 use csv::{ReaderBuilder, StringRecord};
-use glam::{DQuat, DVec3};
 
-use prone::frames::{Point, Transform};
-use prone::robot::JointAngles;
+use super::{Cut, Damage, Part, ReadError};
 
-use super::{Cut, ReadError, RecordedBody, RecordedContact, RecordedRow, ground_columns};
+/// No quantity of a record comes near: not in mm, N, N·m, degrees or seconds.
+const LARGEST: f64 = 1e9;
 
-/// End of the column of a joint's command; the joint's name is before it.
-const COMMAND_COLUMN: &str = "_cmd_rad";
+/// Two instants that differ by less are one, s: tables have four decimals of a second.
+const SAME_INSTANT: f64 = 0.6e-4;
+
+/// Of what stands in a cell, as many letters are shown.
+const SHOWN: usize = 30;
 
 /// A CSV file in memory.
-pub(super) struct Table<'a> {
-    file: &'a str,
+pub(super) struct Table {
+    part: Part,
     header: StringRecord,
-    /// Complete lines with their numbers.
+    /// Whole lines with their numbers.
     lines: Vec<(usize, StringRecord)>,
-    /// The first line that is not complete.
-    cut: Option<usize>,
+    /// What ends them, if it is not the end of the file.
+    broken: Option<(usize, Damage)>,
+    /// The number of the line after the last one.
+    after: usize,
 }
 
-impl<'a> Table<'a> {
-    /// Splits a text into cells. A line without its end, and what comes after a line with more or
-    /// fewer cells than the first, is cut off.
-    pub(super) fn new(file: &'a str, text: &str) -> Self {
+impl Table {
+    /// Splits a text into cells, up to a line without its end or with more or fewer cells than the
+    /// first one.
+    pub(super) fn new(part: Part, text: &str) -> Self {
         let whole = text.rfind('\n').map_or("", |end| &text[..=end]);
         let mut table = Self {
-            file,
+            part,
             header: StringRecord::new(),
             lines: Vec::new(),
-            cut: None,
+            broken: None,
+            after: whole.matches('\n').count() + 1,
         };
         let reader = ReaderBuilder::new()
             .has_headers(false)
             .flexible(true)
+            .quoting(false)
             .from_reader(whole.as_bytes());
-        let mut last_line = 0;
-        for record in reader.into_records() {
-            last_line += 1;
-            match record {
-                Ok(record) if last_line == 1 => table.header = record,
-                Ok(record) if record.len() == table.header.len() => {
-                    table.lines.push((last_line, record));
-                }
-                _ => {
-                    table.cut = Some(last_line);
-                    break;
-                }
+        for (index, record) in reader.into_records().enumerate() {
+            // Texts without quotes have no errors.
+            let Ok(record) = record else { break };
+            if index == 0 {
+                table.header = record;
+                continue;
             }
+            #[expect(
+                clippy::cast_possible_truncation,
+                reason = "a number of lines in memory"
+            )]
+            let line = record
+                .position()
+                .map_or(index + 1, |position| position.line() as usize);
+            let (found, expected) = (record.len(), table.header.len());
+            if found != expected {
+                table.broken = Some((line, Damage::Cells { found, expected }));
+                return table;
+            }
+            table.lines.push((line, record));
         }
         if whole.len() < text.len() {
-            table.cut = table.cut.or(Some(last_line + 1));
+            table.broken = Some((table.after, Damage::Unfinished));
         }
         table
     }
 
-    /// The joints that have columns, in their order.
-    pub(super) fn joints(&self) -> Vec<String> {
-        let columns = self.header.iter();
-        columns
-            .filter_map(|column| column.strip_suffix(COMMAND_COLUMN))
-            .map(str::to_owned)
-            .collect()
+    /// The names of the columns.
+    pub(super) fn header(&self) -> impl Iterator<Item = &str> {
+        self.header.iter()
     }
 
-    /// The lines as rows of `rows.csv`.
-    pub(super) fn rows(
-        self,
-        joints: &[String],
-    ) -> Result<(Vec<RecordedRow>, Option<Cut>), ReadError> {
-        let names = [
-            "time_s", "cycle", "x_mm", "y_mm", "z_mm", "qw", "qx", "qy", "qz",
-        ];
-        let fixed = self.columns(names)?;
-        let ground = self.columns(ground_columns())?;
-        let columns = |end: &str| -> Result<Vec<usize>, ReadError> {
-            let columns = joints
-                .iter()
-                .map(|joint| self.column(&format!("{joint}{end}")));
-            columns.collect()
-        };
-        let (commands, angles, torques) =
-            (columns(COMMAND_COLUMN)?, columns("_rad")?, columns("_nm")?);
-        Ok(self.each(|cells| {
-            let [time_s, cycle, x, y, z, qw, qx, qy, qz] = numbers(cells, fixed)?;
-            let list = |columns: &[usize]| -> Option<Vec<f64>> {
-                columns
-                    .iter()
-                    .map(|&column| number(cells, column))
-                    .collect()
-            };
-            Some(RecordedRow {
-                time_s,
-                cycle: whole(cycle)?,
-                ground_from_root: Transform::new(
-                    DQuat::from_xyzw(qx, qy, qz, qw).normalize(),
-                    metres(x, y, z),
-                ),
-                command: JointAngles::from_vec(list(&commands)?),
-                angles: JointAngles::from_vec(list(&angles)?),
-                actuator_torque_nm: list(&torques)?,
-                ground_n: numbers(cells, ground)?,
-            })
-        }))
-    }
-
-    /// The lines as contacts of `contacts.csv`.
-    pub(super) fn contacts(
-        self,
-        bodies: &[RecordedBody],
-    ) -> Result<(Vec<RecordedContact>, Option<Cut>), ReadError> {
-        let [body, with] = self.columns(["body", "with"])?;
-        let fixed = self.columns(["time_s", "x_mm", "y_mm", "z_mm", "fx_n", "fy_n", "fz_n"])?;
-        Ok(self.each(|cells| {
-            let [time_s, x, y, z, fx, fy, fz] = numbers(cells, fixed)?;
-            Some(RecordedContact {
-                time_s,
-                body: bodies.iter().position(|known| known.name == cells[body])?,
-                with: cells[with].to_owned(),
-                at: Point::new(metres(x, y, z)),
-                force_n: DVec3::new(fx, fy, fz),
-            })
-        }))
-    }
-
-    /// What `parse` makes of the lines, up to the first of which it makes nothing.
-    fn each<T>(self, parse: impl Fn(&StringRecord) -> Option<T>) -> (Vec<T>, Option<Cut>) {
-        let mut found = Vec::with_capacity(self.lines.len());
-        let mut cut = self.cut;
-        for (line, cells) in &self.lines {
-            let Some(row) = parse(cells) else {
-                cut = Some(*line);
-                break;
-            };
-            found.push(row);
-        }
-        let cut = cut.map(|line| Cut {
-            file: self.file.to_owned(),
-            line,
-        });
-        (found, cut)
-    }
-
-    fn columns<const N: usize>(
+    /// Where some columns are.
+    pub(super) fn columns<const N: usize>(
         &self,
+        folder: &Path,
         names: [impl AsRef<str>; N],
     ) -> Result<[usize; N], ReadError> {
         let mut places = [0; N];
         for (place, name) in places.iter_mut().zip(names) {
-            *place = self.column(name.as_ref())?;
+            *place = self.column(folder, name.as_ref())?;
         }
         Ok(places)
     }
 
-    fn column(&self, name: &str) -> Result<usize, ReadError> {
-        let place = self.header.iter().position(|column| column == name);
+    /// Where a column is.
+    pub(super) fn column(&self, folder: &Path, name: &str) -> Result<usize, ReadError> {
+        let place = self.header().position(|column| column == name);
         place.ok_or_else(|| ReadError::Column {
-            file: self.file.to_owned(),
+            file: folder.join(self.part.file()).display().to_string(),
             column: name.to_owned(),
         })
     }
-}
 
-fn number(cells: &StringRecord, column: usize) -> Option<f64> {
-    let number: f64 = cells.get(column)?.parse().ok()?;
-    number.is_finite().then_some(number)
-}
-
-fn numbers<const N: usize>(cells: &StringRecord, columns: [usize; N]) -> Option<[f64; N]> {
-    let mut numbers = [0.0; N];
-    for (slot, column) in numbers.iter_mut().zip(columns) {
-        *slot = number(cells, column)?;
+    /// Hands over line by line, up to the first in which `take` finds damage.
+    pub(super) fn each(
+        &self,
+        mut take: impl FnMut(Cells<'_>) -> Result<(), Damage>,
+    ) -> Option<Cut> {
+        for (line, cells) in &self.lines {
+            let header = &self.header;
+            if let Err(damage) = take(Cells { header, cells }) {
+                return Some(self.cut(*line, damage));
+            }
+        }
+        let (line, damage) = self.broken.clone()?;
+        Some(self.cut(line, damage))
     }
-    Some(numbers)
+
+    /// Damage in the line after the last one.
+    pub(super) fn cut_at_end(&self, damage: Damage) -> Cut {
+        self.cut(self.after, damage)
+    }
+
+    const fn cut(&self, line: usize, damage: Damage) -> Cut {
+        Cut {
+            part: self.part,
+            line,
+            damage,
+        }
+    }
 }
 
-/// A small count that was read as a number.
-fn whole(number: f64) -> Option<usize> {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "checked to be a count"
-    )]
-    (number.fract() == 0.0 && (0.0..1e9).contains(&number)).then_some(number as usize)
+/// One line.
+#[derive(Clone, Copy)]
+pub(super) struct Cells<'a> {
+    header: &'a StringRecord,
+    cells: &'a StringRecord,
 }
 
-fn metres(x_mm: f64, y_mm: f64, z_mm: f64) -> DVec3 {
-    DVec3::new(x_mm, y_mm, z_mm) / 1e3
+impl Cells<'_> {
+    /// What stands in a column.
+    pub(super) fn text(&self, column: usize) -> &str {
+        &self.cells[column]
+    }
+
+    /// A number; nothing where the cell is empty.
+    pub(super) fn optional(&self, column: usize) -> Result<Option<f64>, Damage> {
+        let text = self.text(column);
+        if text.is_empty() {
+            return Ok(None);
+        }
+        let number = text.parse().ok();
+        match number.filter(|number: &f64| number.abs() < LARGEST) {
+            Some(number) => Ok(Some(number)),
+            None => Err(self.wrong(column)),
+        }
+    }
+
+    /// Numbers that must be there.
+    pub(super) fn numbers<const N: usize>(&self, columns: [usize; N]) -> Result<[f64; N], Damage> {
+        let mut numbers = [0.0; N];
+        for (slot, column) in numbers.iter_mut().zip(columns) {
+            *slot = self.optional(column)?.ok_or_else(|| self.wrong(column))?;
+        }
+        Ok(numbers)
+    }
+
+    /// As many as fit into 16 bits, more than which nothing of a robot has.
+    pub(super) fn count(&self, column: usize) -> Result<usize, Damage> {
+        let count: Option<u16> = self.text(column).parse().ok();
+        count.map(usize::from).ok_or_else(|| self.wrong(column))
+    }
+
+    /// Says that there is no value of a record in a column.
+    pub(super) fn wrong(&self, column: usize) -> Damage {
+        Damage::Value {
+            column: self.header[column].to_owned(),
+            text: self.text(column).chars().take(SHOWN).collect(),
+        }
+    }
+}
+
+/// Whether two times are those of one instant.
+pub(super) fn same_instant(one_s: f64, other_s: f64) -> bool {
+    (one_s - other_s).abs() < SAME_INSTANT
 }

@@ -81,9 +81,14 @@ pub(super) fn wholes(values: &[f64]) -> Packed {
     }
 }
 
-/// Numbers of things.
-pub(super) fn counts(values: &[u16]) -> String {
-    base64(values.iter().flat_map(|value| value.to_le_bytes()))
+/// Numbers of things: a record has none beyond 16 bits.
+pub(super) fn counts(values: impl IntoIterator<Item = usize>) -> String {
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "the reader refuses larger ones"
+    )]
+    let short = values.into_iter().map(|value| value as u16);
+    base64(short.flat_map(u16::to_le_bytes))
 }
 
 fn constant(values: &[f64]) -> Option<Packed> {

@@ -1,0 +1,113 @@
+//! Why a folder cannot be read as a record.
+
+use std::fs;
+use std::path::Path;
+
+/// Why a folder cannot be read as a record.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadError {
+    /// There is no record.
+    #[error("{folder} is not a recorded run: {reason}")]
+    NotARecord {
+        /// The folder.
+        folder: String,
+        /// By what that is known.
+        reason: String,
+    },
+    /// It is another result of this program.
+    #[error(
+        "{folder} is not a recorded run, but a result of {found}; {}",
+        match inside.as_slice() {
+            [] => "`prone crawl run --record` makes one".to_owned(),
+            inside => format!("recorded runs in it: {}", inside.join(", ")),
+        }
+    )]
+    Command {
+        /// The folder.
+        folder: String,
+        /// What wrote it.
+        found: String,
+        /// Folders in it that are recorded runs.
+        inside: Vec<String>,
+    },
+    /// It is the result of another version.
+    #[error(
+        "{folder} was recorded by prone {found}, this is prone {ours}, which reads its own records \
+         only: record it anew"
+    )]
+    Version {
+        /// The folder.
+        folder: String,
+        /// What wrote it.
+        found: String,
+        /// What reads it.
+        ours: &'static str,
+    },
+    /// An earlier build of this version did not write how long the tables are.
+    #[error(
+        "{folder} was recorded by an earlier build of prone {ours}, which did not say how many rows \
+         there are: record it anew"
+    )]
+    Uncounted {
+        /// The folder.
+        folder: String,
+        /// What reads it.
+        ours: &'static str,
+    },
+    /// A file cannot be read.
+    #[error("cannot read {file}: {source}")]
+    File {
+        /// The file's path.
+        file: String,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// A JSON file is not what it should be.
+    #[error("{file}: {source}")]
+    Json {
+        /// The file's path.
+        file: String,
+        /// Where and why.
+        source: serde_json::Error,
+    },
+    /// `run.json` or the model contradicts itself or the tables.
+    #[error("{file}: {problem}")]
+    Model {
+        /// The file's path.
+        file: String,
+        /// What is wrong.
+        problem: String,
+    },
+    /// A table lacks a column.
+    #[error("{file} has no column {column}")]
+    Column {
+        /// The file's path.
+        file: String,
+        /// Its name.
+        column: String,
+    },
+    /// A table has nothing to show.
+    #[error("{folder} has no whole row: {cut}")]
+    NoRows {
+        /// The folder.
+        folder: String,
+        /// Why.
+        cut: super::Cut,
+    },
+}
+
+/// A file's text; what is cut within a letter is cut in its line too.
+pub(super) fn text(folder: &Path, file: &'static str) -> Result<String, ReadError> {
+    let path = folder.join(file);
+    match fs::read(&path) {
+        Ok(bytes) => Ok(String::from_utf8_lossy(&bytes).into_owned()),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Err(ReadError::NotARecord {
+            folder: folder.display().to_string(),
+            reason: format!("it has no {file}"),
+        }),
+        Err(source) => Err(ReadError::File {
+            file: path.display().to_string(),
+            source,
+        }),
+    }
+}

@@ -1,0 +1,67 @@
+//! Where the bodies are, and how fast the joints turn, by what was recorded.
+
+use glam::DQuat;
+
+use prone::frames::{Ground, Link, Transform};
+
+use super::{Recorded, RecordedRow};
+
+impl Recorded {
+    /// Speed of each joint at each row, rad/s: the difference of the neighbouring rows' angles over
+    /// the time between them.
+    pub fn joint_speeds(&self) -> Vec<Vec<f64>> {
+        let last = self.rows.len().saturating_sub(1);
+        let speeds = (0..self.rows.len()).map(|index| {
+            let before = &self.rows[index.saturating_sub(1)];
+            let after = &self.rows[(index + 1).min(last)];
+            let seconds = after.time_s - before.time_s;
+            let pairs = before.angles.as_slice().iter().zip(after.angles.as_slice());
+            let speed = |(from, to): (&f64, &f64)| {
+                // A record of one row does not tell a speed.
+                if seconds > 0.0 {
+                    (to - from) / seconds
+                } else {
+                    0.0
+                }
+            };
+            pairs.map(speed).collect()
+        });
+        speeds.collect()
+    }
+
+    /// Pose of each body in its parent at a row; the root's is that in the ground.
+    pub fn parent_from_bodies(&self, row: &RecordedRow) -> Vec<Transform<Link, Link>> {
+        let poses = self.bodies.iter().map(|body| {
+            let rest = match body.parent {
+                Some(_) => body.parent_from_body,
+                None => Transform::new(
+                    row.ground_from_root.rotation(),
+                    row.ground_from_root.origin().metres(),
+                ),
+            };
+            body.hinge.map_or(rest, |hinge| {
+                let angle = row.angles.as_slice()[hinge.joint];
+                let turn = DQuat::from_axis_angle(hinge.axis, angle);
+                let anchor = hinge.anchor.metres();
+                rest * Transform::new(turn, anchor - turn * anchor)
+            })
+        });
+        poses.collect()
+    }
+
+    /// Pose of each body in the ground at a row.
+    pub fn ground_from_bodies(&self, row: &RecordedRow) -> Vec<Transform<Ground, Link>> {
+        let mut poses: Vec<Transform<Ground, Link>> = Vec::with_capacity(self.bodies.len());
+        for (body, parent_from_body) in self.bodies.iter().zip(self.parent_from_bodies(row)) {
+            let pose = match body.parent {
+                Some(parent) => poses[parent] * parent_from_body,
+                None => Transform::new(
+                    parent_from_body.rotation(),
+                    parent_from_body.origin().metres(),
+                ),
+            };
+            poses.push(pose);
+        }
+        poses
+    }
+}

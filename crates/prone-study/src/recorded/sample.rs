@@ -1,0 +1,65 @@
+//! A small record for tests, as the program lays it out.
+
+use std::fs;
+use std::path::Path;
+
+use tempfile::TempDir;
+
+/// Of a robot with one hinge: three rows, four contacts.
+pub(crate) const ROWS: &str = "\
+time_s,cycle,stage,s,x_mm,y_mm,z_mm,qw,qx,qy,qz,A_cmd_rad,A_rad,A_nm,toe_n,elbow_n,torso_n,leg_n,contacts
+0.0200,1,pull,0.0,100.000,0.000,50.000,1,0,0,0,0.1,0.0,0.5,1,2,3,4,1
+0.0400,1,pull,0.1,200.000,0.000,50.000,1,0,0,0,0.2,1.5707963,0.6,1,2,3,4,2
+0.0600,1,recovery,,300.000,0.000,50.000,1,0,0,0,0.3,2.0,0.7,1,2,3,4,1
+";
+
+pub(crate) const CONTACTS: &str = "\
+time_s,body,with,x_mm,y_mm,z_mm,fx_n,fy_n,fz_n
+0.0200,arm,floor,1,2,3,4,5,6
+0.0400,trunk,plate 1,1,2,3,4,5,6
+0.0400,arm,floor,1,2,3,4,5,7
+0.0600,arm,floor,1,2,3,4,5,6
+";
+
+pub(crate) const MODEL: &str = r#"{"bodies": [
+    {"name": "trunk", "parent": null, "position": [0.1000000001, 0, 0], "quaternion": [1, 0, 0, 0], "joint": null},
+    {"name": "arm", "parent": 0, "position": [0.2, 0, 0], "quaternion": [1, 0, 0, 0],
+     "joint": {"name": "A", "axis": [0, 0, 1], "anchor": [0, 0, 0]}}],
+    "shapes": [], "chain": {},
+    "obstacles": [{"kind": "plate", "half_edges": [0.75, 0.5, 0.009], "position": [0.8, 0, 0.209]}]}"#;
+
+pub(crate) fn run_json() -> String {
+    format!(
+        r#"{{"program": "prone", "version": "{}", "commit": "c", "command": "crawl run",
+        "robot": {{"name": "r", "folder": "f", "sha256": "s"}},
+        "gait": {{"name": "g", "description": "d", "file": "g.toml", "text": ""}},
+        "scene": {{"name": "level"}},
+        "options": {{"time_scale": 1.0, "scene_text": null, "steering": "none"}},
+        "record": {{"rows": 3, "row_step_s": 0.02}}}}"#,
+        env!("CARGO_PKG_VERSION")
+    )
+}
+
+/// A record folder with some files changed, or left out.
+pub(crate) fn folder(changes: &[(&str, Option<&str>)]) -> TempDir {
+    let home = tempfile::tempdir().unwrap();
+    let run = run_json();
+    let whole = [
+        ("run.json", run.as_str()),
+        ("model.json", MODEL),
+        ("rows.csv", ROWS),
+        ("contacts.csv", CONTACTS),
+    ];
+    for (name, text) in whole {
+        let change = changes.iter().find(|(changed, _)| *changed == name);
+        if let Some(text) = change.map_or(Some(text), |(_, change)| *change) {
+            fs::write(home.path().join(name), text).unwrap();
+        }
+    }
+    home
+}
+
+/// A message with the folder's own name in it.
+pub(crate) fn without_place(message: &str, folder: &Path) -> String {
+    message.replace(&folder.display().to_string(), "RUN")
+}
