@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 use std::fs;
-use std::io;
+use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -56,6 +56,18 @@ impl Checkpoint {
     /// Holds the checkpoint against other searches with the same result folder.
     pub(crate) fn lock(&self) -> Result<Lock, Failure> {
         Lock::take(&self.path.with_extension("lock"), "search for this folder")
+    }
+
+    /// Says that what another search has kept here is about to be lost.
+    pub(crate) fn announce_replacement(&self) {
+        if self.path.exists() {
+            // Where nobody listens, the work goes on.
+            let _ = writeln!(
+                std::io::stderr(),
+                "replacing {}, which an earlier search has left: --resume goes on from there",
+                self.path.display()
+            );
+        }
     }
 
     /// The search that was interrupted, `None` if there was none.

@@ -17,6 +17,7 @@ use prone_study::output;
 use prone_study::run_info::Program;
 
 use crate::args::{CrawlCommand, CrawlRunArgs};
+use crate::lock::Lock;
 use crate::{Failure, interrupt};
 use plan::Plan;
 
@@ -31,9 +32,17 @@ pub(crate) fn run(command: &CrawlCommand) -> Result<(), Failure> {
 fn crawl_run(args: &CrawlRunArgs) -> Result<(), Failure> {
     let plan = Plan::new(args)?;
     interrupt::listen()?;
-    if let Some(folder) = &args.record {
-        output::check(folder).map_err(Failure::input)?;
-    }
+    // Of two crawls into one folder, the first to end would be lost.
+    let _lock = match &args.record {
+        Some(folder) => {
+            output::check(folder).map_err(Failure::input)?;
+            Some(Lock::beside(
+                folder,
+                "crawl that is recorded in this folder",
+            )?)
+        }
+        None => None,
+    };
     let started = Instant::now();
     let crawl = simulate(&plan, args)?;
     let past = plan.past;
@@ -78,7 +87,7 @@ fn simulate(plan: &Plan, args: &CrawlRunArgs) -> Result<Crawl, Failure> {
         },
     };
     let mut pilot = Interruptible(plan.pilot());
-    crawl::run(&plan.world, &crawl_plan, &mut pilot).map_err(failure)
+    crawl::run(&plan.world, &crawl_plan, &mut pilot).map_err(|error| plan.failure(error))
 }
 
 /// A cycle that the robot cannot follow is wrong input, a diverging simulation is not.

@@ -13,6 +13,7 @@ use serde_json::{Value, json};
 use prone::gait::cycle::Cycle;
 use prone_sim::{LoadedRobot, Regime};
 use prone_study::cycle_search::frontier::{self, Hunt};
+use prone_study::cycle_search::passage::too_low;
 use prone_study::cycle_search::price::{Aim, CycleObjective, CycleRules, Merge};
 use prone_study::cycle_search::record::{Compared, Found, Frontier};
 use prone_study::cycle_search::settings;
@@ -82,6 +83,7 @@ pub(crate) fn frontier(args: &FrontierArgs) -> Result<(), Failure> {
             return Err(Failure::Input(anyhow!("--ceilings-mm has {mm} twice")));
         }
         let height = below(mm, args.margin_mm)?;
+        refuse_too_low(&robot, "--ceilings-mm", mm, height)?;
         let base = frontier::base(&robot, &settings[0], &cycles, height).map_err(Failure::input)?;
         let aim = Aim {
             objective,
@@ -137,6 +139,9 @@ pub(crate) fn optimize(args: &OptimizeArgs) -> Result<(), Failure> {
     let cycles = passage::cycles(&from)?;
     let settings = settings_for(objective, steered(args.steerable), &robot)?;
     let height = args.ceiling_mm.map_or(f64::INFINITY, |mm| mm * 1e-3);
+    if let Some(mm) = args.ceiling_mm {
+        refuse_too_low(&robot, "--ceiling-mm", mm, height)?;
+    }
     let base = frontier::base(&robot, &settings[0], &cycles, height).map_err(Failure::input)?;
     let usual = rules_for(objective, height, base);
     let rules = CycleRules {
@@ -261,6 +266,22 @@ fn below(ceiling_mm: f64, margin_mm: f64) -> Result<f64, Failure> {
     Err(Failure::Input(anyhow!(
         "a margin of {margin_mm} mm leaves nothing of a ceiling of {ceiling_mm} mm"
     )))
+}
+
+/// A search under a ceiling that no gait of the robot fits under would find nothing.
+fn refuse_too_low(
+    robot: &LoadedRobot,
+    option: &str,
+    ceiling_mm: f64,
+    height: f64,
+) -> Result<(), Failure> {
+    match too_low(robot.robot(), height) {
+        None => Ok(()),
+        Some(reason) => Err(Failure::Input(anyhow!(
+            "{option} {ceiling_mm} is too low for {}: {reason}",
+            robot.robot().name
+        ))),
+    }
 }
 
 /// Whether a cycle has to be steered.
@@ -407,6 +428,8 @@ fn begin(quest: &Quest<'_>, checkpoint: &Checkpoint) -> Result<Vec<Search>, Fail
             "there is no {}: starting from the beginning",
             checkpoint.path().display()
         );
+    } else {
+        checkpoint.announce_replacement();
     }
     let fresh = |_: &Job<'_>| Search::about_the_middle(quest.seed, quest.runs, quest.budget);
     Ok(quest.jobs.iter().map(fresh).collect())

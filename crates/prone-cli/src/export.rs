@@ -16,7 +16,7 @@ use prone_study::export::{key_frames, numpy, ros_log, table, timeline, urdf};
 use prone_study::recorded::{Command, Recorded, RecordedRun};
 
 use crate::args::{ExportArgs, Format};
-use crate::{Failure, incomplete, interrupt, table_file};
+use crate::{Failure, interrupt, record_folder, table_file};
 
 pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
     let is_film = matches!(args.format, Format::Mp4 | Format::Webp | Format::Gif);
@@ -43,7 +43,7 @@ pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
         let (bytes, said) = of_tables(args, &record)?;
         put(&out, &bytes, &said)?;
     }
-    incomplete::say(&[(&args.run, record.shortfalls(parts))])
+    record_folder::say_incomplete(&[(&args.run, record.shortfalls(parts))])
 }
 
 /// Writes the file, and says what it holds.
@@ -92,9 +92,8 @@ fn cycle(args: &ExportArgs, run: &RecordedRun) -> Result<(Vec<u8>, String), Fail
     let gait = &run.gait;
     if run.command == Command::ReproducePull {
         return Err(Failure::Input(anyhow!(
-            "{} is a pull alone, and {} is a cycle with its way back: export a crawl",
-            args.run.display(),
-            args.format.ending()
+            "{} is a pull alone: xar and keyframes are a whole cycle, with its way back",
+            args.run.display()
         )));
     }
     let loaded = origin::robot(args, run)?;
@@ -146,31 +145,7 @@ fn refuse_camera(args: &ExportArgs) -> Result<(), Failure> {
 /// Where the file goes: never over a file of the record, nor among them.
 fn place(args: &ExportArgs) -> Result<PathBuf, Failure> {
     let out = args.out.clone().unwrap_or_else(|| default_place(args));
-    if out.is_dir() {
-        return Err(Failure::Input(anyhow!(
-            "--out {} is a folder: name a file in it",
-            out.display()
-        )));
-    }
-    let folder = match out.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
-    let folder = folder
-        .canonicalize()
-        .map_err(|error| Failure::Input(anyhow!("cannot write {}: {error}", out.display())))?;
-    // A record with other files in it would not be replaced by the next one.
-    if args
-        .run
-        .canonicalize()
-        .is_ok_and(|run| folder.starts_with(run))
-    {
-        return Err(Failure::Input(anyhow!(
-            "{} is inside the record {}, which keeps its own files only",
-            out.display(),
-            args.run.display()
-        )));
-    }
+    record_folder::check_place(&out, &args.run)?;
     Ok(out)
 }
 

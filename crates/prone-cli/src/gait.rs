@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 
+use prone::gait::cycle::CycleError;
 use prone::gait::{Gait, PhaseDuration};
 use prone::robot::Robot;
 use prone_files::robot_file::RobotFile;
@@ -69,6 +70,23 @@ pub(crate) fn find_cycle(name: &str) -> Result<GaitSource, Failure> {
         file: name.to_owned(),
         text,
     })
+}
+
+/// Whether a cycle is one that ships with prone, and not a user's.
+pub(crate) fn is_shipped(gait: &GaitSource) -> bool {
+    shipped::cycle_text(&gait.cycle.pull.name) == Some(gait.text.as_str())
+}
+
+/// A cycle that the robot cannot crawl: in a user's file, where that is.
+pub(crate) fn refused(gait: &GaitSource, error: &CycleError) -> Failure {
+    if is_shipped(gait) {
+        return Failure::Input(anyhow!("{error}"));
+    }
+    let file = &gait.file;
+    match cycle_file::line_of(&gait.text, error.place()) {
+        Some(line) => Failure::Input(anyhow!("{file}:{line}: {error}")),
+        None => Failure::Input(anyhow!("{file}: {error}")),
+    }
 }
 
 /// A pull's duration where none is asked for, s.

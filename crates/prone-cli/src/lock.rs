@@ -15,15 +15,28 @@ use crate::Failure;
 pub(crate) struct Lock {
     path: PathBuf,
     _file: File,
+    /// Folders above it that were made for it, the inmost first.
+    made: Vec<PathBuf>,
 }
 
 impl Lock {
+    /// Holds a result folder, under whatever name it is given, against others that write it.
+    pub(crate) fn beside(folder: &Path, what: &str) -> Result<Self, Failure> {
+        let mut name = real_path(folder).into_os_string();
+        name.push(".lock");
+        Self::take(Path::new(&name), what)
+    }
+
     /// Makes the file and locks it; `what` is refused where another process has it.
     pub(crate) fn take(path: &Path, what: &str) -> Result<Self, Failure> {
         let shown = path.display();
         let refused = |error: io::Error| Failure::Input(anyhow!("cannot lock {shown}: {error}"));
         let busy = || Failure::Input(anyhow!("another {what} is at work: it holds {shown}"));
+        let mut made = Vec::new();
         if let Some(folder) = path.parent() {
+            let missing = folder.ancestors().take_while(|above| !above.exists());
+            let missing = missing.filter(|above| !above.as_os_str().is_empty());
+            made.extend(missing.map(Path::to_owned));
             fs::create_dir_all(folder).map_err(refused)?;
         }
         let file = OpenOptions::new()
@@ -43,6 +56,7 @@ impl Lock {
             Ok(named) if (named.dev(), named.ino()) == (ours.dev(), ours.ino()) => Ok(Self {
                 path: path.to_owned(),
                 _file: file,
+                made,
             }),
             _ => Err(busy()),
         }
@@ -53,5 +67,21 @@ impl Drop for Lock {
     fn drop(&mut self) {
         // Still locked, so that it is nobody else's. One that stays is taken over by the next.
         let _ = fs::remove_file(&self.path);
+        for folder in &self.made {
+            // One that holds a result by now is not empty, and stays.
+            let _ = fs::remove_dir(folder);
+        }
+    }
+}
+
+/// A path without links; what does not exist yet is appended to what does.
+fn real_path(path: &Path) -> PathBuf {
+    match (path.canonicalize(), path.parent(), path.file_name()) {
+        (Ok(real), ..) => real,
+        (Err(_), Some(above), Some(name)) if above.as_os_str().is_empty() => {
+            real_path(Path::new(".")).join(name)
+        }
+        (Err(_), Some(above), Some(name)) => real_path(above).join(name),
+        _ => path.to_owned(),
     }
 }

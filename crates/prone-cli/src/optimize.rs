@@ -212,6 +212,7 @@ fn begin(
 ) -> Result<Search, Failure> {
     let fresh = || Search::new(solver(args), args.seed, args.runs, budget(args, pricing));
     if !args.resume {
+        checkpoint.announce_replacement();
         return Ok(fresh());
     }
     let Some(mut search) = checkpoint.read::<Search>()? else {

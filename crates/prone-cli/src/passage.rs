@@ -16,25 +16,39 @@ use prone_study::cycle_search::trial::Setting;
 use prone_study::optimize::search::{Search, SearchEnd};
 
 use crate::args::passage::UnderArgs;
+use crate::gait::{find_cycle, is_shipped};
 use crate::progress::SearchProgress;
 use crate::{Failure, interrupt, table_file};
 
 /// A shipped cycle by name, or the cycle of a file.
 pub(crate) fn find(name: &str) -> Result<Cycle, Failure> {
-    Ok(crate::gait::find_cycle(name)?.cycle)
+    Ok(find_cycle(name)?.cycle)
 }
 
-/// Cycles by name, or all that ship.
+/// Cycles by name.
 pub(crate) fn cycles(names: &[String]) -> Result<Vec<Cycle>, Failure> {
-    if names.is_empty() {
-        return shipped::cycle_names().map(find).collect();
-    }
     names.iter().map(|name| find(name)).collect()
+}
+
+/// Cycles by name, or all that ship, each with where it comes from.
+fn sources(names: &[String]) -> Result<Vec<(Cycle, &'static str)>, Failure> {
+    let all: Vec<String> = shipped::cycle_names().map(str::to_owned).collect();
+    let names = if names.is_empty() { &all } else { names };
+    let sources = names.iter().map(|name| {
+        let source = find_cycle(name)?;
+        let origin = if is_shipped(&source) {
+            "shipped"
+        } else {
+            "file"
+        };
+        Ok((source.cycle, origin))
+    });
+    sources.collect()
 }
 
 pub(crate) fn run(args: &UnderArgs) -> Result<(), Failure> {
     let robot = crate::robot::load(args.robot.as_deref())?;
-    let mut cycles = cycles(&args.gait)?;
+    let sources = sources(&args.gait)?;
     let settings = settings::for_advance(&robot).map_err(Failure::input)?;
     let (ceiling, margin) = (args.ceiling_mm * 1e-3, args.margin_mm * 1e-3);
     if margin >= ceiling {
@@ -45,7 +59,9 @@ pub(crate) fn run(args: &UnderArgs) -> Result<(), Failure> {
         )));
     }
     interrupt::listen()?;
-    let mut passage = Passage::of(robot.robot(), &settings[0], &cycles, ceiling, margin);
+    let tried = sources.iter().map(|(cycle, origin)| (cycle, *origin));
+    let mut passage = Passage::of(robot.robot(), &settings[0], tried, ceiling, margin);
+    let mut cycles: Vec<Cycle> = sources.into_iter().map(|(cycle, _)| cycle).collect();
     if let (Some(seed), true) = (args.seed, passage.may_be_searched()) {
         let found = search(args, &robot, &settings, &cycles, ceiling - margin, seed)?;
         if let Some((cycle, tried)) = found {

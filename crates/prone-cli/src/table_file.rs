@@ -5,6 +5,8 @@ use std::io::{self, Write as _};
 use std::os::unix::fs::{MetadataExt as _, PermissionsExt as _};
 use std::path::{Path, PathBuf};
 
+use prone_study::output;
+
 /// Mode of a new file, before the user's mask.
 const NEW_FILE: u32 = 0o666;
 
@@ -51,7 +53,8 @@ fn replace(path: &Path, bytes: &[u8], mode: u32) -> io::Result<()> {
     };
     let mut file = tempfile::Builder::new()
         .permissions(Permissions::from_mode(NEW_FILE))
-        .tempfile_in(folder)?;
+        .tempfile_in(folder)
+        .map_err(|error| output::without_hidden_name(&error))?;
     file.write_all(bytes)?;
     if mode != NEW_FILE {
         fs::set_permissions(file.path(), Permissions::from_mode(mode & 0o7777))?;

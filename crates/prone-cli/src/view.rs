@@ -12,7 +12,7 @@ use prone_study::recorded;
 use prone_study::view::{self, record};
 
 use crate::args::ViewArgs;
-use crate::{Failure, incomplete, table_file};
+use crate::{Failure, record_folder, table_file};
 
 /// What opens a page in the browser of the user's choice.
 const OPENER: &str = if cfg!(target_os = "macos") {
@@ -42,13 +42,10 @@ pub(crate) fn run(args: &ViewArgs) -> Result<(), Failure> {
         Some(out) => out.clone(),
         None => beside(&args.run)?,
     };
-    if out.is_dir() {
-        return Err(Failure::Input(anyhow!(
-            "--out {} is a folder: name a file in it",
-            out.display()
-        )));
-    }
     check_place(&out, &folders)?;
+    for folder in &folders {
+        record_folder::check_place(&out, folder)?;
+    }
     let page = view::page(&runs.iter().collect::<Vec<_>>()).map_err(Failure::work)?;
     let name = out.display();
     table_file::write(&out, page.as_bytes())
@@ -64,22 +61,29 @@ pub(crate) fn run(args: &ViewArgs) -> Result<(), Failure> {
     )?;
     let notes = runs.iter().map(|run| run.notes().to_vec());
     let records: Vec<_> = folders.into_iter().zip(notes).collect();
-    incomplete::say(&records)
+    record_folder::say_incomplete(&records)
 }
 
-/// `RUN.html`: a result folder is replaced whole, so nothing is put into it.
+/// `RUN.html` beside the result folder, which is replaced whole, so that nothing is put into it; of a
+/// record in another result, `RESULT-RUN.html`.
 fn beside(folder: &Path) -> Result<PathBuf, Failure> {
-    let named = if folder.file_name().is_some() {
-        folder.to_owned()
-    } else {
-        let real = fs::canonicalize(folder);
-        real.map_err(|error| Failure::Input(anyhow!("{}: {error}", folder.display())))?
-    };
-    let Some(name) = named.file_name() else {
+    let result = record_folder::result(folder)?;
+    let real = fs::canonicalize(folder);
+    let real = real.map_err(|error| Failure::Input(anyhow!("{}: {error}", folder.display())))?;
+    let (Some(name), Some(run)) = (result.file_name(), real.file_name()) else {
         return Err(Failure::Input(anyhow!("{} has no name", folder.display())));
     };
-    let mut file = OsString::from(name);
+    if result != real {
+        let mut file = name.to_owned();
+        file.push("-");
+        file.push(run);
+        file.push(".html");
+        return Ok(result.with_file_name(file));
+    }
+    let mut file = OsString::from(run);
     file.push(".html");
+    // As the user named it, where it has a name in that.
+    let named = folder.file_name().map_or(real.as_path(), |_| folder);
     Ok(named.with_file_name(file))
 }
 
@@ -119,14 +123,22 @@ mod tests {
 
     #[test]
     fn the_page_stands_beside_its_run() {
-        for (run, page) in [
-            ("out/low", "out/low.html"),
-            ("low/", "low.html"),
-            ("v1.2", "v1.2.html"),
-        ] {
-            assert_eq!(beside(Path::new(run)).unwrap(), Path::new(page));
-        }
+        let home = tempfile::tempdir().unwrap();
+        let low = home.path().join("v1.2");
+        fs::create_dir(&low).unwrap();
+        let page = home.path().join("v1.2.html");
+        assert_eq!(beside(&low).unwrap(), page);
+        assert_eq!(beside(&low.join("")).unwrap(), page);
         let here = beside(Path::new(".")).unwrap();
         assert_eq!(here.extension().unwrap(), "html");
+        // In a result that lists it, a page would be a stranger.
+        let pull = low.join("pulls/nominal");
+        fs::create_dir_all(&pull).unwrap();
+        let list = r#"{"program": "prone", "artefacts": ["pulls/nominal/run.json", "run.json"]}"#;
+        fs::write(low.join("run.json"), list).unwrap();
+        let real = home.path().canonicalize().unwrap();
+        assert_eq!(beside(&pull).unwrap(), real.join("v1.2-nominal.html"));
+        assert!(record_folder::check_place(&low.join("pulls/a.html"), &pull).is_err());
+        assert!(record_folder::check_place(&page, &pull).is_ok());
     }
 }

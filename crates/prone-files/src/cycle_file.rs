@@ -42,7 +42,7 @@ use prone::gait::cycle::{Approach, Cycle, Easing, Steering, Waypoint};
 use prone::gait::{Curve, Gait, PhaseDuration};
 
 use crate::curve_table::{self, CurveTable};
-use crate::error::{FileError, Source};
+use crate::error::{FileError, Source, line_and_column};
 use crate::gait_file::{self, ArmName, LimitsName, MappingName};
 
 /// Largest angle of a joint in a file, degrees.
@@ -98,6 +98,27 @@ pub fn parse(file: &str, text: &str) -> Result<Cycle, FileError> {
             Some(steering) => Some(reader.steering(steering)?),
         },
     })
+}
+
+/// The line, from 1, on which a part of a cycle stands in the text of its file: a waypoint's name,
+/// or the table of `pull`, `steering` or `extension`, which `[approach]` leads to. Nothing where the
+/// file has no such part.
+pub fn line_of(text: &str, place: &str) -> Option<usize> {
+    let table: CycleFile = toml::from_str(text).ok()?;
+    let waypoints = table.recovery.iter();
+    let mut names = waypoints.map(|waypoint| &waypoint.name);
+    if let Some(name) = names.find(|name| name.get_ref() == place) {
+        return Some(line_and_column(text, name.span().start).0);
+    }
+    let header = match place {
+        "extension" => "[approach",
+        "pull" => "[pull",
+        "steering" => "[steering",
+        _ => return None,
+    };
+    let mut lines = text.lines();
+    let index = lines.position(|line| line.trim_start().starts_with(header))?;
+    Some(index + 1)
 }
 
 /// A cycle as the text of a cycle file: angles in radians with every digit, so that [`parse`]
@@ -342,6 +363,22 @@ mod tests {
             assert!(text.starts_with("# a header\n"));
             assert_eq!(parse("again.toml", &text).unwrap(), cycle, "{name}");
         }
+    }
+
+    #[test]
+    fn parts_have_their_lines() {
+        let text = shipped::cycle_text("low-175").unwrap();
+        for (place, line) in [
+            ("pull", "[pull]"),
+            ("steering", "[steering]"),
+            ("extension", "[approach]"),
+            ("lift", "name = \"lift\""),
+        ] {
+            let index = line_of(text, place).unwrap() - 1;
+            assert_eq!(text.lines().nth(index), Some(line));
+        }
+        assert_eq!(line_of(text, "jump"), None);
+        assert_eq!(line_of("[", "pull"), None);
     }
 
     #[test]

@@ -105,10 +105,27 @@ pub fn publish(folder: &Path, artefacts: &Artefacts) -> Result<(), OutputError> 
     let target = Target::resolve(folder)?;
     let parents = Parents::make(&target.parent)?;
     let staging = Staging::new(&target)?;
-    staging.write(artefacts, &run_file)?;
+    staging.write(&target, artefacts, &run_file)?;
     staging.place(&target)?;
     parents.keep();
     Ok(())
+}
+
+/// The result folder that a folder is part of: one above it whose list of files names one in it,
+/// else itself.
+pub fn result_around(folder: &Path) -> PathBuf {
+    let above = folder.ancestors().skip(1);
+    let mut results = above.filter(|result| earlier::lists_files_in(result, folder));
+    results.next().unwrap_or(folder).to_owned()
+}
+
+/// The same error without the hidden name of a file or folder in which something was to be made: a
+/// user knows the name that it would have got.
+pub fn without_hidden_name(error: &io::Error) -> io::Error {
+    let text = error.to_string();
+    // So `tempfile` names the place.
+    let reason = text.split(" at path ").next().unwrap_or_default();
+    io::Error::new(error.kind(), reason)
 }
 
 fn write_error(path: &Path, source: io::Error) -> OutputError {
@@ -250,7 +267,11 @@ mod tests {
         let mut broken = files("first");
         broken.insert("run.json/below".to_owned(), Vec::new());
         let failed = publish(&home.path().join("a/b/result"), &broken);
-        assert!(matches!(failed, Err(OutputError::Write { .. })));
+        let Err(OutputError::Write { path, .. }) = failed else {
+            panic!("{failed:?}")
+        };
+        // Named as it would have been, not where it was made.
+        assert!(path.ends_with("a/b/result/run.json/below"), "{path:?}");
         let failed = publish(&home.path().join("result"), &Artefacts::new());
         assert!(matches!(failed, Err(OutputError::Unrecorded(_))));
         let dotted = publish(&home.path().join("a/../result"), &files("first"));

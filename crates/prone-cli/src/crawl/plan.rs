@@ -8,7 +8,7 @@ use prone::scene::{Obstacle, Quantity, Scene, SceneError, SideFriction};
 use prone::steering::TurnTo;
 use prone_files::{scene_file, shipped, text_file};
 use prone_sim::crawl::{
-    End, Exact, HoldHeading, HoldLine, Pilot, SlopeAware, Straight, check_limbs,
+    CrawlError, End, Exact, HoldHeading, HoldLine, Pilot, SlopeAware, Straight, check_limbs,
 };
 use prone_sim::imu::SimulatedImu;
 use prone_sim::regime::Servo;
@@ -18,7 +18,7 @@ use prone_study::cycle_search::settings::offsets;
 
 use crate::Failure;
 use crate::args::{CrawlRunArgs, ServoName};
-use crate::gait::find_cycle;
+use crate::gait::{find_cycle, is_shipped, refused};
 
 /// How many cycles where nothing is said.
 const CYCLES: usize = 9;
@@ -70,8 +70,8 @@ impl Plan {
             for gait in [Some(&gait), uphill.as_ref()].into_iter().flatten() {
                 let scale = args.time_scale;
                 let checked = CheckedCycle::plan(world.robot(), stops, &gait.cycle, turn, scale)
-                    .map_err(Failure::input)?;
-                check_limbs(&world, &checked).map_err(Failure::input)?;
+                    .map_err(|error| refused(gait, &error))?;
+                check_limbs(&world, &checked).map_err(|error| in_file(gait, error))?;
             }
         }
         let imu = match (&uphill, args.seed) {
@@ -125,6 +125,14 @@ impl Plan {
         })
     }
 
+    /// An error of the crawl itself; of a cycle, with its file.
+    pub(super) fn failure(&self, error: CrawlError) -> Failure {
+        match error {
+            CrawlError::Cycle(error) => refused(&self.gait, &error),
+            error => super::failure(error),
+        }
+    }
+
     /// The cycles between which the pilot chooses.
     pub(super) fn cycles(&self) -> Vec<Cycle> {
         let sources = [Some(&self.gait), self.uphill.as_ref()];
@@ -164,7 +172,18 @@ impl Steering {
 
 fn steering(args: &CrawlRunArgs, gait: &GaitSource) -> Result<Steering, Failure> {
     if !args.heading_hold && args.heading_deg.is_none() {
-        let turn = args.turn_deg_per_cycle.unwrap_or_default().to_radians();
+        let degrees = args.turn_deg_per_cycle.unwrap_or_default();
+        let limit = gait.cycle.steering.as_ref().map_or(0.0, |it| it.limit);
+        let limit = (limit.to_degrees() * 1e9).round() / 1e9;
+        // NaN is no turn either.
+        if !(-limit..=limit).contains(&degrees) {
+            let name = &gait.cycle.pull.name;
+            return Err(Failure::Input(anyhow!(
+                "--turn-deg-per-cycle {degrees} is outside {} to {limit}, by which {name} can be turned",
+                0.0 - limit
+            )));
+        }
+        let turn = degrees.to_radians();
         return Ok(Steering::Straight { turn });
     }
     match &gait.cycle.steering {
@@ -182,6 +201,14 @@ fn steering(args: &CrawlRunArgs, gait: &GaitSource) -> Result<Steering, Failure>
             gait.cycle.pull.name
         ))),
     }
+}
+
+/// An error of a user's cycle, with the file.
+fn in_file(gait: &GaitSource, error: CrawlError) -> Failure {
+    if is_shipped(gait) {
+        return Failure::input(error);
+    }
+    Failure::Input(anyhow!("{}: {error}", gait.file))
 }
 
 fn regime(args: &CrawlRunArgs) -> Regime {

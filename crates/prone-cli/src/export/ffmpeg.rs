@@ -14,6 +14,7 @@ use tempfile::NamedTempFile;
 
 use prone_sim::camera::Picture;
 use prone_study::export::film::{Reel, Shot};
+use prone_study::output::without_hidden_name;
 
 use crate::Failure;
 
@@ -125,7 +126,10 @@ fn files(out: &Path) -> Result<(NamedTempFile, File), anyhow::Error> {
         .suffix(".mp4")
         .permissions(permissions)
         .tempfile_in(folder)
-        .with_context(|| format!("cannot write {}", out.display()))?;
+        .map_err(|error| {
+            let reason = without_hidden_name(&error);
+            anyhow!("cannot write {}: {reason}", out.display())
+        })?;
     let said = tempfile::tempfile().context("cannot keep what ffmpeg says")?;
     Ok((file, said))
 }

@@ -13,11 +13,12 @@ use crate::Failure;
 use crate::args::GaitShowArgs;
 
 pub(super) fn show(args: &GaitShowArgs) -> Result<(), Failure> {
-    let cycle = find_cycle(&args.gait)?.cycle;
+    let source = find_cycle(&args.gait)?;
+    let cycle = &source.cycle;
     let loaded = crate::robot::load(args.robot.as_deref())?;
     let robot = loaded.robot();
-    let checked = CheckedCycle::plan(robot, &robot.stops(), &cycle, 0.0, TimeScale::ONE)
-        .map_err(Failure::input)?;
+    let checked = CheckedCycle::plan(robot, &robot.stops(), cycle, 0.0, TimeScale::ONE)
+        .map_err(|error| super::refused(&source, &error))?;
     let duration = args.duration.unwrap_or(cycle.pull_duration);
     let sheet = gait_sheet::of(robot, &cycle.pull, duration).map_err(Failure::input)?;
     if let Some(path) = &args.csv {
@@ -54,7 +55,7 @@ pub(super) fn show(args: &GaitShowArgs) -> Result<(), Failure> {
         return Ok(());
     }
     super::print(&sheet, robot, &mut out)?;
-    print(&cycle, &checked, robot, &mut out)?;
+    print(cycle, &checked, robot, &mut out)?;
     Ok(())
 }
 

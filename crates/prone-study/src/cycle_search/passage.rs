@@ -22,7 +22,7 @@ pub struct Passage {
     pub feasible: bool,
     /// The fastest one, where there is.
     pub best: Option<Tried>,
-    /// Whether it ships or was searched.
+    /// Where it comes from: `shipped`, `file` or `searched`.
     pub found_by: Option<String>,
     /// What limits it: the part of the body that comes nearest to the ceiling, or why there is none.
     pub limited_by: String,
@@ -54,12 +54,12 @@ pub struct Tried {
 }
 
 impl Passage {
-    /// Tries cycles under a ceiling, m, with a margin, m; none is crawled where not even a foot
-    /// fits.
-    pub fn of(
+    /// Tries cycles, each with where it comes from, under a ceiling, m, with a margin, m; none is
+    /// crawled where not even a foot fits.
+    pub fn of<'a>(
         robot: &Robot,
         setting: &Setting,
-        cycles: &[Cycle],
+        cycles: impl IntoIterator<Item = (&'a Cycle, &'a str)>,
         ceiling: f64,
         margin: f64,
     ) -> Self {
@@ -74,18 +74,13 @@ impl Passage {
             tried: Vec::new(),
             refused: Vec::new(),
         };
-        let foot = foot_length(robot);
-        if foot > ceiling - margin {
-            passage.limited_by = format!(
-                "the foot, {:.1} mm long: with toes planted it passes through the vertical in every closed-chain gait, and {:.1} mm are left",
-                foot * 1e3,
-                (ceiling - margin) * 1e3
-            );
+        if let Some(reason) = too_low(robot, ceiling - margin) {
+            passage.limited_by = reason;
             return passage;
         }
-        for cycle in cycles {
+        for (cycle, origin) in cycles {
             match try_out(setting, cycle) {
-                Ok(trial) => passage.take(Tried::of(cycle, &trial, ceiling), "shipped"),
+                Ok(trial) => passage.take(Tried::of(cycle, &trial, ceiling), origin),
                 Err(error) => {
                     let name = cycle.pull.name.clone();
                     passage.refused.push((name, error.to_string()));
@@ -151,6 +146,18 @@ impl Tried {
     }
 }
 
+/// Why no gait of this robot is so low, m, whatever its form.
+pub fn too_low(robot: &Robot, height: f64) -> Option<String> {
+    let foot = foot_length(robot);
+    (foot > height).then(|| {
+        format!(
+            "the foot, {:.1} mm long: with toes planted it passes through the vertical in every closed-chain gait, and {:.1} mm are left",
+            foot * 1e3,
+            height * 1e3
+        )
+    })
+}
+
 /// How long the foot is along its sole, m: its shapes' extent forward in the zero pose, in which a
 /// humanoid stands on flat soles. The longer of both feet.
 pub fn foot_length(robot: &Robot) -> f64 {
@@ -192,7 +199,10 @@ mod tests {
         let cycles: Vec<Cycle> = shipped::cycle_names()
             .map(|name| shipped::cycle(name).unwrap().unwrap())
             .collect();
-        let under = |mm: f64| Passage::of(robot.robot(), &settings[0], &cycles, mm * 1e-3, 3e-3);
+        let under = |mm: f64| {
+            let cycles = cycles.iter().map(|cycle| (cycle, "shipped"));
+            Passage::of(robot.robot(), &settings[0], cycles, mm * 1e-3, 3e-3)
+        };
         let low = under(160.0);
         assert!(!low.feasible && !low.may_be_searched());
         assert!(low.limited_by.contains("foot"), "{}", low.limited_by);

@@ -62,6 +62,21 @@ pub(super) fn standing(folder: &Path) -> Result<Standing, OutputError> {
     })
 }
 
+/// Whether a result's list names a file in a folder below it.
+pub(super) fn lists_files_in(result: &Path, folder: &Path) -> bool {
+    let Ok(below) = folder.strip_prefix(result) else {
+        return false;
+    };
+    let run_file = result.join(RUN_FILE);
+    let small = fs::metadata(&run_file).is_ok_and(|found| found.len() <= LARGEST_RUN_FILE);
+    let record = small.then(|| fs::read(run_file)).and_then(Result::ok);
+    let record = record.and_then(|bytes| serde_json::from_slice::<Record>(&bytes).ok());
+    record.is_some_and(|record| {
+        let mut files = record.artefacts.iter().map(Path::new);
+        record.program == "prone" && files.any(|file| file.starts_with(below))
+    })
+}
+
 /// What in a folder is not known to be ours, if anything.
 fn stranger(folder: &Path) -> io::Result<Option<String>> {
     if fs::read_dir(folder)?.next().is_none() {

@@ -13,7 +13,7 @@ use tempfile::TempDir;
 
 use super::earlier::{Standing, standing};
 use super::target::Target;
-use super::{Artefacts, OutputError, RUN_FILE, write_error};
+use super::{Artefacts, OutputError, RUN_FILE, without_hidden_name, write_error};
 
 /// How often another run may be faster before this one gives up.
 const ATTEMPTS: usize = 100;
@@ -69,9 +69,10 @@ fn prefix(target: &Target) -> String {
 }
 
 fn make(parent: &Path, target: &Target) -> io::Result<TempDir> {
-    tempfile::Builder::new()
+    let made = tempfile::Builder::new()
         .prefix(&prefix(target))
-        .tempdir_in(parent)
+        .tempdir_in(parent);
+    made.map_err(|error| without_hidden_name(&error))
 }
 
 impl Staging {
@@ -102,9 +103,14 @@ impl Staging {
     }
 
     /// Writes all files, `run.json` first: what is there is then listed at every instant.
-    pub(super) fn write(&self, artefacts: &Artefacts, run_file: &[u8]) -> Result<(), OutputError> {
+    pub(super) fn write(
+        &self,
+        target: &Target,
+        artefacts: &Artefacts,
+        run_file: &[u8],
+    ) -> Result<(), OutputError> {
         let result = self.result();
-        fs::create_dir(&result).map_err(|source| write_error(&result, source))?;
+        fs::create_dir(&result).map_err(|source| write_error(&target.folder, source))?;
         let others = artefacts.iter().filter(|(name, _)| *name != RUN_FILE);
         let others = others.map(|(name, bytes)| (name.as_str(), bytes.as_slice()));
         for (name, bytes) in std::iter::once((RUN_FILE, run_file)).chain(others) {
@@ -112,7 +118,7 @@ impl Staging {
             let folder = path.parent().unwrap_or(&result);
             fs::create_dir_all(folder)
                 .and_then(|()| fs::write(&path, bytes))
-                .map_err(|source| write_error(&path, source))?;
+                .map_err(|source| write_error(&target.folder.join(name), source))?;
         }
         Ok(())
     }
@@ -185,7 +191,7 @@ mod tests {
         let staging = Staging::new(target).unwrap();
         let files = files("mine");
         let run_file = earlier::record(&files).unwrap();
-        staging.write(&files, &run_file).unwrap();
+        staging.write(target, &files, &run_file).unwrap();
         staging
     }
 

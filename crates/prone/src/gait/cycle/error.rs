@@ -97,3 +97,19 @@ pub enum CycleError {
         limit: f64,
     },
 }
+
+impl CycleError {
+    /// Which part of the cycle it is about: `pull`, `steering`, `extension` for the approach to it,
+    /// or a waypoint by its name.
+    pub fn place(&self) -> &str {
+        match self {
+            Self::Pull(_) | Self::Duration { .. } => "pull",
+            Self::Turn { .. } => "steering",
+            Self::UnknownJoint { place, .. }
+            | Self::ChainJoint { place, .. }
+            | Self::Seconds { place, .. }
+            | Self::Limit { place, .. }
+            | Self::Speed { place, .. } => place.strip_prefix("waypoint ").unwrap_or(place),
+        }
+    }
+}
