@@ -1,18 +1,19 @@
 //! Whole runs of `prone crawl run`.
 
-use std::collections::BTreeMap;
+mod begun;
+mod folder;
+mod program;
+
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::path::Path;
+use std::process::Command;
+use std::time::Duration;
 
 use serde_json::Value;
 
-fn prone(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_prone"))
-        .args(arguments)
-        .output()
-        .unwrap()
-}
+use begun::begun;
+use folder::files;
+use program::prone;
 
 /// The summary of a run that ends well.
 fn summary(arguments: &[&str]) -> Value {
@@ -26,24 +27,6 @@ fn number(value: &Value, key: &str) -> f64 {
     value[key]
         .as_f64()
         .unwrap_or_else(|| panic!("{key}: {value}"))
-}
-
-/// Every file below a folder with its bytes.
-fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
-    let mut found = BTreeMap::new();
-    let mut folders = vec![folder.to_owned()];
-    while let Some(next) = folders.pop() {
-        for entry in fs::read_dir(next).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                folders.push(path);
-            } else {
-                let bytes = fs::read(&path).unwrap();
-                found.insert(path.strip_prefix(folder).unwrap().to_owned(), bytes);
-            }
-        }
-    }
-    found
 }
 
 #[test]
@@ -225,6 +208,121 @@ fn records_are_the_same_on_any_number_of_threads_and_replace_each_other() {
     let model: Value = serde_json::from_str(&text("model.json")).unwrap();
     assert_eq!(model["obstacles"].as_array().unwrap().len(), 7);
     assert!(!model["shapes"].as_array().unwrap().is_empty());
+}
+
+#[test]
+fn of_two_crawls_into_one_folder_the_second_is_refused() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path().join("new/record");
+    let arguments = |cycles, record| {
+        [
+            "crawl", "run", "--gait", "low-175", "--cycles", cycles, "--record", record,
+        ]
+    };
+    let record = folder.to_str().unwrap();
+    let mut first = begun(&arguments("1000", record));
+    let lock = home.path().join("new/record.lock");
+    while !lock.exists() {
+        assert!(first.try_wait().unwrap().is_none(), "it ended too soon");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    // By whatever name.
+    std::os::unix::fs::symlink("new", home.path().join("link")).unwrap();
+    let link = home.path().join("link/record");
+    for name in [record, link.to_str().unwrap()] {
+        let second = prone(&arguments("1", name));
+        let message = String::from_utf8(second.stderr).unwrap();
+        assert_eq!(second.status.code(), Some(2), "{message}");
+        assert!(
+            message.starts_with("error: another crawl that is recorded in this folder is at work"),
+            "{message}"
+        );
+    }
+    fs::remove_file(home.path().join("link")).unwrap();
+    let stopped = Command::new("kill").arg(first.id().to_string()).status();
+    assert!(stopped.unwrap().success());
+    assert_eq!(first.wait().unwrap().code(), Some(130));
+    let left = fs::read_dir(home.path()).unwrap().count();
+    assert_eq!(left, 0, "not even the folder above");
+    // Then the folder is free again.
+    let done = prone(&arguments("1", record));
+    assert!(done.status.success());
+    let left = fs::read_dir(home.path().join("new")).unwrap().count();
+    assert_eq!(left, 1, "the record alone");
+}
+
+/// A pull in which nothing moves has a stride of zero, one from the end to the beginning a negative
+/// one: of neither can anything come about.
+#[test]
+fn limit_a_plan_that_does_not_lead_forward_has_no_efficiency() {
+    let home = tempfile::tempdir().unwrap();
+    let gait = home.path().join("gait.toml");
+    let at = gait.to_str().unwrap();
+    for (arm, stride) in [
+        ("constant_deg = -60", "0.0"),
+        ("linear_deg = [-60, -50]", "-"),
+    ] {
+        let low = include_str!("../../../gaits/low-175.toml");
+        let text = low.replacen("linear_deg = [-30, -90]", arm, 1);
+        assert_ne!(text, low);
+        fs::write(&gait, text).unwrap();
+        let run = summary(&["--gait", at, "--cycles", "1"]);
+        assert!(run["stride_efficiency"].is_null(), "{run}");
+        assert!(run["pull_efficiency"].is_null(), "{run}");
+        let done = prone(&["crawl", "run", "--gait", at, "--cycles", "1"]);
+        let said = String::from_utf8(done.stdout).unwrap();
+        assert!(!said.contains("inf") && !said.contains("NaN"), "{said}");
+        let line = said
+            .lines()
+            .find(|line| line.contains("planned chain"))
+            .unwrap();
+        assert!(
+            line.starts_with(&format!("  stride of the planned chain {stride}")),
+            "{line}"
+        );
+        assert!(
+            line.ends_with(" mm: the pull does not lead forward"),
+            "{line}"
+        );
+    }
+}
+
+#[test]
+fn what_a_robot_cannot_do_is_said_with_its_line() {
+    let home = tempfile::tempdir().unwrap();
+    let gait = home.path().join("gait.toml");
+    let at = gait.to_str().unwrap();
+    let low = include_str!("../../../gaits/low-175.toml");
+    let cases = [
+        (
+            "LHipPitch = -25",
+            "LHop = -25",
+            25,
+            "waypoint fold: robot NAO H25 V4 has no joint LHop",
+        ),
+        ("time_s = 0.3", "time_s = 0.06", 35, "reach: "),
+        (
+            "constant_deg = 20\n\n[pull.upper",
+            "constant_deg = 70\n\n[pull.upper",
+            9,
+            "",
+        ),
+    ];
+    for (from, to, line, what) in cases {
+        let text = low.replacen(from, to, 1);
+        assert_ne!(text, low);
+        fs::write(&gait, text).unwrap();
+        for command in [&["crawl", "run", "--gait", at][..], &["gait", "show", at]] {
+            let refused = prone(command);
+            let message = String::from_utf8(refused.stderr).unwrap();
+            assert_eq!(refused.status.code(), Some(2), "{message}");
+            assert!(
+                message.starts_with(&format!("error: {at}:{line}: ")),
+                "{message}"
+            );
+            assert!(message.contains(what), "{message}");
+        }
+    }
 }
 
 #[test]

@@ -1,30 +1,21 @@
 //! `prone crawl frontier`, `prone crawl under` and `prone optimize --source cycle` as wholes.
 
+mod begun;
+mod folder;
+mod program;
+
 use std::collections::BTreeMap;
 use std::fs;
+use std::io::{BufRead as _, BufReader};
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Output, Stdio};
+use std::process::Output;
 use std::time::Duration;
 
 use serde_json::Value;
 
-fn prone(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_prone"))
-        .args(arguments)
-        .output()
-        .unwrap()
-}
-
-/// Begun with the signals of a terminal, whatever these tests were begun with.
-fn begun(arguments: &[&str]) -> Child {
-    Command::new("env")
-        .args(["--default-signal=HUP,INT,TERM", env!("CARGO_BIN_EXE_prone")])
-        .args(arguments)
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap()
-}
+use begun::begun;
+use folder::files;
+use program::prone;
 
 fn succeeded(done: &Output) {
     let message = String::from_utf8_lossy(&done.stderr);
@@ -33,19 +24,7 @@ fn succeeded(done: &Output) {
 
 /// Every file below a folder but the one that may differ.
 fn result(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
-    let mut found = BTreeMap::new();
-    let mut folders = vec![folder.to_owned()];
-    while let Some(next) = folders.pop() {
-        for entry in fs::read_dir(next).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                folders.push(path);
-            } else {
-                let bytes = fs::read(&path).unwrap();
-                found.insert(path.strip_prefix(folder).unwrap().to_owned(), bytes);
-            }
-        }
-    }
+    let mut found = files(folder);
     assert!(found.remove(Path::new("timing.json")).is_some());
     found
 }
@@ -89,6 +68,22 @@ fn a_killed_frontier_resumes_to_the_bytes_of_an_uninterrupted_one() {
     killed.kill().unwrap();
     killed.wait().unwrap();
     assert!(!home.path().join("parts").exists());
+    // What is kept is not lost without a word.
+    let kept = fs::read(&checkpoint).unwrap();
+    let mut anew = begun(&search);
+    let mut said = BufReader::new(anew.stderr.take().unwrap());
+    let mut line = String::new();
+    said.read_line(&mut line).unwrap();
+    anew.kill().unwrap();
+    anew.wait().unwrap();
+    assert_eq!(
+        line,
+        format!(
+            "replacing {}, which an earlier search has left: --resume goes on from there\n",
+            checkpoint.display()
+        )
+    );
+    fs::write(&checkpoint, kept).unwrap();
     succeeded(&run(
         &parts,
         &["--budget", "32", "--resume", "--threads", "2"],
@@ -150,6 +145,57 @@ fn what_fits_and_what_does_not_is_said_with_its_reason() {
     );
     let named = under("230", &["--gait", "thesis-nominal"]);
     assert_eq!(named["best"]["gait"], "thesis-nominal");
+    assert_eq!(named["found_by"], "shipped");
+    // A user's file does not ship, also where it has the name of one that does.
+    let home = tempfile::tempdir().unwrap();
+    let gait = home.path().join("mine.toml");
+    let text = include_str!("../../../gaits/thesis-nominal.toml");
+    fs::write(&gait, format!("{text}\n# mine\n")).unwrap();
+    let mine = under("230", &["--gait", gait.to_str().unwrap()]);
+    assert_eq!(mine["best"]["gait"], "thesis-nominal");
+    assert_eq!(mine["found_by"], "file");
+}
+
+/// What the foot rules out is not searched for.
+#[test]
+fn ceilings_below_every_gait_are_refused() {
+    let home = tempfile::tempdir().unwrap();
+    let out = home.path().join("result").display().to_string();
+    let frontier = [
+        "crawl",
+        "frontier",
+        "--seed",
+        "1",
+        "--ceilings-mm",
+        "200,10",
+    ];
+    let optimize = [
+        "optimize",
+        "--objective",
+        "heat",
+        "--source",
+        "cycle",
+        "--seed",
+        "1",
+        "--ceiling-mm",
+        "160",
+    ];
+    for (arguments, said) in [
+        (
+            &frontier[..],
+            "--ceilings-mm 10 is too low for NAO H25 V4: the foot, 160.6 mm long",
+        ),
+        (
+            &optimize,
+            "--ceiling-mm 160 is too low for NAO H25 V4: the foot, 160.6 mm long",
+        ),
+    ] {
+        let refused = prone(&[arguments, &["--out", &out]].concat());
+        let message = String::from_utf8(refused.stderr).unwrap();
+        assert_eq!(refused.status.code(), Some(2), "{message}");
+        assert!(message.starts_with(&format!("error: {said}")), "{message}");
+    }
+    assert_eq!(fs::read_dir(home.path()).unwrap().count(), 0);
 }
 
 #[test]

@@ -1,29 +1,19 @@
 //! Whole searches of `prone optimize`: interrupted, resumed, on any number of threads.
 
+mod begun;
+mod folder;
+mod program;
+
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::Path;
-use std::process::{Child, Command, Output, Stdio};
+use std::io::{BufRead as _, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
 use std::time::Duration;
 
-fn prone(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_prone"))
-        .args(arguments)
-        .output()
-        .unwrap()
-}
-
-/// Begun with the signals of a terminal, whatever these tests were begun with: under `nohup` they
-/// are ignored, and stay so.
-fn begun(arguments: &[&str]) -> Child {
-    Command::new("env")
-        .args(["--default-signal=HUP,INT,TERM", env!("CARGO_BIN_EXE_prone")])
-        .args(arguments)
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap()
-}
+use begun::begun;
+use folder::files;
+use program::prone;
 
 fn succeeded(done: &Output) {
     let message = String::from_utf8_lossy(&done.stderr);
@@ -31,19 +21,10 @@ fn succeeded(done: &Output) {
 }
 
 /// All files of a result but the one that may differ.
-fn result(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let mut files = BTreeMap::new();
-    for below in [folder.to_owned(), folder.join("figures")] {
-        for entry in fs::read_dir(below).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_file() {
-                let name = path.strip_prefix(folder).unwrap();
-                files.insert(name.display().to_string(), fs::read(&path).unwrap());
-            }
-        }
-    }
-    assert!(files.remove("timing.json").is_some());
-    files
+fn result(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let mut found = files(folder);
+    assert!(found.remove(Path::new("timing.json")).is_some());
+    found
 }
 
 /// Evaluations a run.
@@ -112,6 +93,18 @@ fn killed_and_resumed(solver: &str) {
     killed.wait().unwrap();
     assert!(!Path::new(&parts).exists(), "half a result");
 
+    // What is kept is not lost without a word.
+    let kept = fs::read(&checkpoint).unwrap();
+    let mut anew = begun(&arguments);
+    let mut line = String::new();
+    let mut said = BufReader::new(anew.stderr.take().unwrap());
+    said.read_line(&mut line).unwrap();
+    anew.kill().unwrap();
+    anew.wait().unwrap();
+    assert!(line.starts_with("replacing "), "{line}");
+    assert!(line.ends_with("--resume goes on from there\n"), "{line}");
+    fs::write(&checkpoint, kept).unwrap();
+
     // A checkpoint belongs to one search.
     let other = run(&parts, &["--resume", "--ends", "free"]);
     assert_eq!(other.status.code(), Some(2));
@@ -134,7 +127,11 @@ fn killed_and_resumed(solver: &str) {
         parts.keys().collect::<Vec<_>>()
     );
     for (name, bytes) in whole {
-        assert!(bytes == parts[&name], "{solver}: {name} differs");
+        assert!(
+            bytes == parts[&name],
+            "{solver}: {} differs",
+            name.display()
+        );
     }
 }
 
@@ -192,7 +189,7 @@ fn simulated_searches_are_the_same_on_any_number_of_threads() {
         results.push(result(Path::new(&out)));
     }
     assert!(results[0] == results[1]);
-    let text = String::from_utf8(results[0]["result.json"].clone()).unwrap();
+    let text = String::from_utf8(results[0][Path::new("result.json")].clone()).unwrap();
     for key in [
         "\"cost\"",
         "\"torque\"",

@@ -1,21 +1,18 @@
 //! `prone view` on records that the program makes, and its page in a browser.
 
+mod program;
+
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Command;
+
+use program::prone;
 
 /// What a minute of a robot with 26 joints, recorded every 20 ms, may take.
 const LARGEST_PAGE: u64 = 3_000_000;
 
 /// How the script says that there is no browser.
 const NO_BROWSER: i32 = 77;
-
-fn prone(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_prone"))
-        .args(arguments)
-        .output()
-        .unwrap()
-}
 
 fn record(folder: &Path, gait: &str, scene: &str) -> String {
     let folder = folder.to_str().unwrap().to_owned();
@@ -67,20 +64,22 @@ fn a_record_becomes_a_page_beside_it() {
     assert_eq!(code, Some(2));
     assert!(message.contains("would overwrite"), "{message}");
 
+    // Nor is anything put among the files of a record.
+    let among = format!("{run}/page.html");
+    let (code, _, message) = viewed(&[&run, "--out", &among]);
+    assert_eq!(code, Some(2));
+    assert!(message.contains("keeps its own files only"), "{message}");
+
     // What of a broken table is whole is shown, and said.
     let text = fs::read_to_string(&rows).unwrap();
     fs::write(&rows, &text[..text.len() / 2]).unwrap();
-    let (code, said, notes) = viewed(&[&run]);
-    assert_eq!(code, Some(0));
-    assert!(
-        said.contains("rows,") && notes.contains("rows.csv breaks off in line"),
-        "{notes}"
-    );
-    assert!(
-        fs::read_to_string(&page)
-            .unwrap()
-            .contains("rows.csv breaks off in line")
-    );
+    let (code, said, message) = viewed(&[&run, "--compare", &run]);
+    assert_eq!(code, Some(2));
+    assert!(said.contains("rows,"), "{said}");
+    let note = "the file ends within the line; ";
+    assert_eq!(message.matches(note).count(), 2, "of both runs: {message}");
+    let shown = fs::read_to_string(&page).unwrap();
+    assert_eq!(shown.matches(note).count(), 2);
 
     // Where nothing is to be shown, the earlier page stays.
     fs::write(&rows, "").unwrap();
