@@ -36,10 +36,17 @@ FIGURES = [
     "fig-45-left-cost",
     "fig-45-right-cost-ratio",
 ]
+# What `prone view` and `prone export` read: the pulls that pictures show, and the shorter crawl.
+CRAWL = "crawls/table-9-cycles"
+RECORDS = {f"pulls/{gait}-5s": (5.0, 0.05) for gait in GAITS} | {CRAWL: (27.0, 0.02)}
+RECORD = ["run.json", "model.json", "rows.csv", "contacts.csv"]
+
 FILES = sorted(
     ["figures/crawl.png", "report.html", "run.json", "summary.json", "timing.json", "costs.csv", "agreement.csv"]
     + [f"torques/{gait}-{duration:04.1f}s.csv" for gait in GAITS for duration in DURATIONS]
     + [f"figures/{figure}.{kind}" for figure in FIGURES for kind in ("svg", "png")]
+    + [f"{folder}/{name}" for folder in RECORDS for name in RECORD]
+    + [f"{CRAWL}/{name}" for name in ("summary.json", "cycles.csv", "plate-contacts.csv")]
 )
 
 TORQUE_HEADER = (
@@ -157,6 +164,25 @@ def check_torques(folder):
                 )
 
 
+def check_records(folder):
+    """Rows as many as `run.json` says, at equal steps up to the end, contacts as many as rows say."""
+    for name, (end_s, step_s) in RECORDS.items():
+        said = json.loads((folder / name / "run.json").read_text(encoding="utf-8"))["record"]
+        rows = list(csv.DictReader((folder / name / "rows.csv").read_text("utf-8").splitlines()))
+        contacts = (folder / name / "contacts.csv").read_text("utf-8").splitlines()[1:]
+        path = folder / name
+        check(said == {"rows": round(end_s / step_s), "row_step_s": step_s}, f"{path}: {said}")
+        check(len(rows) == said["rows"], f"{path}: {len(rows)} rows, not {said['rows']}")
+        for index, row in enumerate(rows):
+            due = f"{(index + 1) * step_s:.4f}"
+            check(row["time_s"] == due, f"{path}: row {index + 1} is at {row['time_s']}, not {due}")
+        counted = sum(int(row["contacts"]) for row in rows)
+        check(counted == len(contacts), f"{path}: {len(contacts)} contacts, not {counted}")
+        size = sum(file.stat().st_size for file in (folder / name).iterdir())
+        largest = 1_000_000 if name.startswith("pulls") else 2_000_000
+        check(size < largest, f"{path}: {size} bytes")
+
+
 def check_costs(path):
     costs = {
         (row["gait"], float(row["duration_s"])): float(row["cost_n2m2s"])
@@ -210,6 +236,7 @@ def main(folder, one_thread):
         check_figures(folder)
         check_report(folder / "report.html")
         check_torques(folder)
+        check_records(folder)
         check_costs(folder / "costs.csv")
         check_agreement(folder / "agreement.csv")
         check_same(folder, one_thread)
