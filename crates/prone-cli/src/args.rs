@@ -56,7 +56,7 @@ pub(crate) enum Command {
     /// Write a recorded run for other tools: tables, ROS 2 logs, URDF, key frames, video
     Export(ExportArgs),
     /// Search a better gait, and simulate what is found beside the published ones
-    Optimize(optimize::OptimizeArgs),
+    Optimize(Box<optimize::OptimizeArgs>),
     /// Price one gait
     Cost(optimize::CostArgs),
     /// Look at gaits
