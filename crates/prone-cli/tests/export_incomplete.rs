@@ -43,11 +43,15 @@ fn whole(format: &str, home: &Path) -> Vec<u8> {
     bytes
 }
 
+/// What is done to the text of a table.
+type Change = fn(&str) -> String;
+
 /// Lines of a text but those for which `drop` holds of number, from 1, and content.
 fn without(text: &str, drop: impl Fn(usize, &str) -> bool) -> String {
     let lines = text.lines().enumerate();
     let left = lines.filter(|(index, line)| !drop(index + 1, line));
-    left.map(|(_, line)| format!("{line}\n")).collect()
+    let left: Vec<&str> = left.map(|(_, line)| line).collect();
+    left.join("\n") + "\n"
 }
 
 /// A cut within a line, between two lines, and a line that is missing: what stands before is
@@ -57,7 +61,6 @@ fn what_is_left_of_the_rows_is_exported_and_shown_and_said() {
     let home = tempfile::tempdir().unwrap();
     let home = home.path();
     let table = String::from_utf8(whole("csv", home)).unwrap();
-    type Change = fn(&str) -> String;
     let cases: [(&str, Change); 3] = [
         ("the file ends within the line", |text| {
             let end: usize = text.lines().take(51).map(|line| line.len() + 1).sum();
@@ -102,7 +105,6 @@ fn contacts_that_are_missing_shorten_no_export_that_needs_none() {
     let home = tempfile::tempdir().unwrap();
     let home = home.path();
     let (table, arrays, log) = (whole("csv", home), whole("npz", home), whole("mcap", home));
-    type Change = fn(&str) -> String;
     let cases: [(&str, Change); 3] = [
         (" contacts at 1.00 s; contacts of 49 of ", |text| {
             without(text, |_, line| line.as_bytes()[0] != b't' && line > "1.0")

@@ -3,7 +3,6 @@
 mod folder;
 mod program;
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::os::unix::fs::symlink;
 use std::path::Path;
@@ -11,7 +10,6 @@ use std::process::{Command, Stdio};
 use std::time::Duration;
 
 use prone_files::shipped::NAO;
-use prone_study::recorded::{Command as RecordedCommand, Recorded};
 
 use folder::files;
 use program::prone;
@@ -37,7 +35,6 @@ fn results_are_the_same_on_any_number_of_threads_and_replace_each_other() {
             "{}",
             String::from_utf8_lossy(&done.stderr)
         );
-        check_records(&folder);
         let mut files = files(&folder);
         assert!(files.remove(Path::new("timing.json")).is_some());
         runs.push(files);
@@ -103,119 +100,6 @@ fn results_are_the_same_on_any_number_of_threads_and_replace_each_other() {
         "url(h",
     ] {
         assert!(!report.contains(link), "{link} in the report");
-    }
-}
-
-/// The pull that is shown is also one of the torque tables; what of it is recorded twice is the same.
-fn check_records(result: &Path) {
-    let table = |name: &str| -> Vec<BTreeMap<String, String>> {
-        let text = fs::read_to_string(result.join(name)).unwrap();
-        let mut lines = text.lines().map(|line| line.split(','));
-        let header: Vec<&str> = lines.next().unwrap().collect();
-        let named = |line: std::str::Split<'_, char>| {
-            let pairs = header.iter().zip(line);
-            pairs
-                .map(|(name, cell)| ((*name).to_owned(), cell.to_owned()))
-                .collect()
-        };
-        lines.map(named).collect()
-    };
-    let number =
-        |row: &BTreeMap<String, String>, column: &str| -> f64 { row[column].parse().unwrap() };
-    for gait in ["nominal", "optimal"] {
-        let torques = table(&format!("torques/{gait}-01.0s.csv"));
-        let rows = table(&format!("pulls/{gait}-1s/rows.csv"));
-        assert_eq!(rows.len(), torques.len());
-        for (row, torque) in rows.iter().zip(&torques) {
-            // 1e-4: decimals of either. The recordings' sign is minus the motor's.
-            let off = number(row, "RKneePitch_nm") + number(torque, "knee_nm");
-            assert!(off.abs() < 1e-4, "{off}");
-            let off = number(row, "RKneePitch_rad") - number(torque, "knee_rad");
-            assert!(off.abs() < 1e-4, "{off}");
-            let off = number(row, "toe_n") - number(torque, "toe_n");
-            assert!(off.abs() < 1e-3, "{off}");
-            let off = number(row, "head_top_mm") - number(torque, "head_top_mm");
-            assert!(off.abs() < 1e-2, "{off}");
-        }
-    }
-    let record = Recorded::read(&result.join("pulls/nominal-1s")).unwrap();
-    assert_eq!(record.cuts, []);
-    assert_eq!(record.run.command, RecordedCommand::ReproducePull);
-    assert!(record.run.gait.text.contains("constant_deg = 16.5"));
-    // The floor carries all of it: the mean of the weight within a tenth, in a pull of a second.
-    let weight: f64 = 5.305 * 9.81;
-    let carried: f64 = record
-        .contacts
-        .iter()
-        .map(|contact| contact.force_n.z)
-        .sum();
-    let carried = carried / record.rows.len() as f64;
-    assert!((carried / weight - 1.0).abs() < 0.1, "{carried} N");
-    let crawl = Recorded::read(&result.join("crawls/table-9-cycles")).unwrap();
-    assert_eq!(crawl.run.command, RecordedCommand::ReproduceCrawl);
-    assert_eq!(crawl.rows.last().unwrap().cycle, 9);
-    let size = |folder: &str| -> usize { files(&result.join(folder)).values().map(Vec::len).sum() };
-    assert!(size("pulls/nominal-1s") < 1_000_000);
-
-    // They are shown and exported like a crawl's.
-    let at = |name: &str| result.join(name).display().to_string();
-    let page = at("../page.html");
-    let (nominal, optimal) = (at("pulls/nominal-1s"), at("pulls/optimal-1s"));
-    let shown = prone(&["view", &nominal, "--compare", &optimal, "--out", &page]);
-    let message = String::from_utf8(shown.stderr).unwrap();
-    assert!(shown.status.success(), "{message}");
-    let page = fs::read_to_string(page).unwrap();
-    assert!(page.contains("<title>nominal · level | optimal · level – prone</title>"));
-    fs::remove_file(at("../page.html")).unwrap();
-    let beside = at("../result-table-9-cycles.html");
-    assert!(
-        prone(&["view", &at("crawls/table-9-cycles")])
-            .status
-            .success()
-    );
-    fs::remove_file(beside).unwrap();
-    let out = at("../pull.out");
-    for format in ["csv", "npz", "mcap", "urdf"] {
-        let done = prone(&["export", &nominal, "--format", format, "--out", &out]);
-        let message = String::from_utf8(done.stderr).unwrap();
-        assert!(done.status.success(), "{format}: {message}");
-        fs::remove_file(&out).unwrap();
-    }
-    let film = [
-        "--format", "gif", "--size", "64x36", "--fps", "2", "--out", &out,
-    ];
-    for record in [&nominal, &at("crawls/table-9-cycles")] {
-        let done = prone(&[&["export", record.as_str(), "--to-s", "0.6"], &film[..]].concat());
-        let message = String::from_utf8(done.stderr).unwrap();
-        assert!(done.status.success(), "{message}");
-        fs::remove_file(&out).unwrap();
-    }
-    let refusals = [
-        (
-            &["view", result.to_str().unwrap()][..],
-            "is not a recorded run, but a result of `prone reproduce`; recorded runs in it: ",
-        ),
-        (
-            &["export", &nominal, "--format", "xar", "--out", &out],
-            "is a pull alone: xar and keyframes are a whole cycle",
-        ),
-        (
-            &[
-                "export",
-                &nominal,
-                "--format",
-                "csv",
-                "--out",
-                &at("pulls/a.csv"),
-            ],
-            "keeps its own files only",
-        ),
-    ];
-    for (arguments, said) in refusals {
-        let refused = prone(arguments);
-        let message = String::from_utf8(refused.stderr).unwrap();
-        assert_eq!(refused.status.code(), Some(2), "{message}");
-        assert!(message.contains(said), "{message}");
     }
 }
 

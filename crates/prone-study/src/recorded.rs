@@ -113,7 +113,7 @@ impl Recorded {
         let rows_table = Table::new(Part::Rows, &rows_text);
         let Rows {
             joints,
-            rows,
+            instants: rows,
             stages,
             columns,
             contact_counts,
@@ -131,7 +131,7 @@ impl Recorded {
             stages,
             columns,
             contact_counts: contact_counts[..found.rows].to_vec(),
-            contacts: found.contacts,
+            contacts: found.points,
             cuts: rows_cut.into_iter().chain(found.cut).collect(),
         })
     }

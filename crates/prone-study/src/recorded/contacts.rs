@@ -18,7 +18,7 @@ const MOST_NAMES: usize = 10_000;
 
 /// What `contacts.csv` holds.
 pub(super) struct Contacts {
-    pub(super) contacts: Vec<RecordedContact>,
+    pub(super) points: Vec<RecordedContact>,
     /// Of how many rows, from the first on, all contacts are there.
     pub(super) rows: usize,
     pub(super) cut: Option<Cut>,
@@ -39,7 +39,7 @@ pub(super) fn read(
             damage: Damage::NoFile,
         };
         return Ok(Contacts {
-            contacts: Vec::new(),
+            points: Vec::new(),
             rows: 0,
             cut: Some(cut),
         });
@@ -52,7 +52,7 @@ pub(super) fn read(
             ["time_s", "x_mm", "y_mm", "z_mm", "fx_n", "fy_n", "fz_n"],
         )?,
     };
-    let mut contacts = Vec::new();
+    let mut points = Vec::new();
     let mut names: BTreeSet<String> = BTreeSet::new();
     let mut course = Course::new(rows, counts);
     let cut = table.each(|cells| {
@@ -67,7 +67,7 @@ pub(super) fn read(
             }
             names.insert(contact.with.clone());
         }
-        contacts.push(contact);
+        points.push(contact);
         Ok(())
     });
     let cut = match cut {
@@ -76,9 +76,9 @@ pub(super) fn read(
         Some(cut) => Some(cut),
         None => course.missing().map(|damage| table.cut_at_end(damage)),
     };
-    contacts.truncate(counts[..course.row].iter().sum());
+    points.truncate(counts[..course.row].iter().sum());
     Ok(Contacts {
-        contacts,
+        points,
         rows: course.row,
         cut,
     })

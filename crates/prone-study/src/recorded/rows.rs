@@ -22,7 +22,7 @@ const UNIT: f64 = 1e-4;
 /// What `rows.csv` holds.
 pub(super) struct Rows {
     pub(super) joints: Vec<String>,
-    pub(super) rows: Vec<RecordedRow>,
+    pub(super) instants: Vec<RecordedRow>,
     pub(super) stages: Vec<(usize, String)>,
     pub(super) columns: Vec<(String, Vec<f64>)>,
     /// How many contacts each row has.
@@ -101,7 +101,7 @@ impl Rows {
             .collect();
         let mut found = Self {
             joints,
-            rows: Vec::new(),
+            instants: Vec::new(),
             stages: Vec::new(),
             columns: numbers
                 .iter()
@@ -112,7 +112,7 @@ impl Rows {
         };
         let expected = extent.rows;
         let cut = table.each(|cells| {
-            let index = found.rows.len();
+            let index = found.instants.len();
             if index == expected {
                 return Err(Damage::ManyRows { expected });
             }
@@ -127,7 +127,7 @@ impl Rows {
                 .map(|&(column, _)| cells.optional(column))
                 .collect::<Result<_, _>>()?;
             found.contact_counts.push(cells.count(places.contacts)?);
-            found.rows.push(row);
+            found.instants.push(row);
             for ((_, column), value) in found.columns.iter_mut().zip(values) {
                 column.push(value.unwrap_or(f64::NAN));
             }
@@ -137,7 +137,7 @@ impl Rows {
             }
             Ok(())
         });
-        let rows = found.rows.len();
+        let rows = found.instants.len();
         found.cut = cut.or_else(|| {
             let few = Damage::FewRows {
                 found: rows,

@@ -149,6 +149,9 @@ fn shorten(value: &mut Value) {
     }
 }
 
+/// A number of a contact.
+type Number = fn(&RecordedContact) -> f64;
+
 /// The contacts of all rows, as far as they are known; nothing where none are.
 fn contacts(record: &Recorded) -> Option<Contacts> {
     if record.contact_counts.is_empty() {
@@ -166,7 +169,7 @@ fn contacts(record: &Recorded) -> Option<Contacts> {
     let mut counts = record.contact_counts.clone();
     counts.resize(record.rows.len(), 0);
     let bodies = record.contacts.iter().map(|contact| contact.body);
-    let numbers: [(&'static str, fn(&RecordedContact) -> f64); 6] = [
+    let numbers: [(&'static str, Number); 6] = [
         ("x_mm", |contact| contact.at.metres().x * 1e3),
         ("y_mm", |contact| contact.at.metres().y * 1e3),
         ("z_mm", |contact| contact.at.metres().z * 1e3),
