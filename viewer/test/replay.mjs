@@ -35,6 +35,7 @@ const ROBOT_PIXELS = `(async () => {
     robot.visible = false;
     const without = take();
     robot.visible = true;
+    stage.render();
     const places = stage.bodiesInPicture(index);
     const differs = places.filter(({ x, y }) => {
       const at = 4 * (Math.round(y * scale) * withRobot.width + Math.round(x * scale));

@@ -1,5 +1,6 @@
 //! One writer at a time.
 
+use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
 use std::os::unix::fs::MetadataExt as _;
@@ -22,9 +23,11 @@ pub(crate) struct Lock {
 impl Lock {
     /// Holds a result folder, under whatever name it is given, against others that write it.
     pub(crate) fn beside(folder: &Path, what: &str) -> Result<Self, Failure> {
-        let mut name = real_path(folder).into_os_string();
-        name.push(".lock");
-        Self::take(Path::new(&name), what)
+        let real = real_path(folder);
+        let mut name = OsString::from(".");
+        name.push(real.file_name().unwrap_or_default());
+        name.push(".prone.lock");
+        Self::take(&real.with_file_name(name), what)
     }
 
     /// Makes the file and locks it; `what` is refused where another process has it.
@@ -65,8 +68,11 @@ impl Lock {
 
 impl Drop for Lock {
     fn drop(&mut self) {
-        // Still locked, so that it is nobody else's. One that stays is taken over by the next.
-        let _ = fs::remove_file(&self.path);
+        // Ours is empty. Still locked, so that it is nobody else's. One that stays is taken over by
+        // the next.
+        if fs::metadata(&self.path).is_ok_and(|found| found.len() == 0) {
+            let _ = fs::remove_file(&self.path);
+        }
         for folder in &self.made {
             // One that holds a result by now is not empty, and stays.
             let _ = fs::remove_dir(folder);
@@ -83,5 +89,26 @@ fn real_path(path: &Path) -> PathBuf {
         }
         (Err(_), Some(above), Some(name)) => real_path(above).join(name),
         _ => path.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_lock_leaves_what_was_there() {
+        let home = tempfile::tempdir().unwrap();
+        let folder = home.path().join("new/deep/result");
+        let held = Lock::beside(&folder, "test").unwrap();
+        let again = Lock::beside(&folder.join("."), "test").unwrap_err();
+        assert!(matches!(again, Failure::Input(_)));
+        drop(held);
+        assert_eq!(fs::read_dir(home.path()).unwrap().count(), 0);
+        // What is not empty is not ours, whatever its name.
+        let theirs = home.path().join("theirs");
+        fs::write(&theirs, b"words").unwrap();
+        drop(Lock::take(&theirs, "test").unwrap());
+        assert_eq!(fs::read(theirs).unwrap(), b"words");
     }
 }

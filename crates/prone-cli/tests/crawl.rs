@@ -221,7 +221,7 @@ fn of_two_crawls_into_one_folder_the_second_is_refused() {
     };
     let record = folder.to_str().unwrap();
     let mut first = begun(&arguments("1000", record));
-    let lock = home.path().join("new/record.lock");
+    let lock = home.path().join("new/.record.prone.lock");
     while !lock.exists() {
         assert!(first.try_wait().unwrap().is_none(), "it ended too soon");
         std::thread::sleep(Duration::from_millis(5));
