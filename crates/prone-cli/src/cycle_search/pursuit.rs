@@ -1,0 +1,245 @@
+//! Carrying out a search of cycles: checkpoint, searches one after the other, confirmation, result.
+
+use std::io::Write as _;
+use std::ops::ControlFlow;
+use std::time::Instant;
+
+use anyhow::anyhow;
+use serde_json::json;
+
+use prone::gait::cycle::Cycle;
+use prone_sim::Regime;
+use prone_study::cycle_search::frontier;
+use prone_study::cycle_search::record::{Compared, Found, Frontier};
+use prone_study::optimize::search::{Search, SearchEnd};
+use prone_study::output;
+
+use super::files::{self, pretty};
+use super::{Job, Quest};
+use crate::checkpoint::Checkpoint;
+use crate::progress::SearchProgress;
+use crate::{Failure, interrupt, passage};
+
+/// The cycle that a found one is compared with, where the robot can crawl it.
+const COMPARED: &str = "thesis-nominal";
+/// Searches, confirms and writes the result.
+pub(super) fn pursue(quest: &mut Quest<'_>) -> Result<(), Failure> {
+    interrupt::listen()?;
+    output::check(quest.out).map_err(Failure::input)?;
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(quest.threads.map_or(0, usize::from))
+        .build()
+        .map_err(|error| Failure::Work(anyhow!("cannot start worker threads: {error}")))?;
+    complete(quest);
+    let mut checkpoint = Checkpoint::beside(quest.out, quest.plan.clone());
+    // Not part of what a checkpoint must agree with: a search may be given more.
+    quest.plan["budget"] = json!(quest.budget);
+    let _lock = checkpoint.lock()?;
+    let mut searches = begin(quest, &checkpoint)?;
+    let started = Instant::now();
+    pool.install(|| search(quest, &mut searches, &mut checkpoint))?;
+    let (frontier, gaits) = pool.install(|| found(quest, &searches));
+    if interrupt::requested() {
+        return Err(suspended(&checkpoint));
+    }
+    let mut artefacts = files::artefacts(quest, &frontier, &gaits, &searches)?;
+    let timing = json!({
+        "wall_s": started.elapsed().as_secs_f64(),
+        "threads": pool.current_num_threads(),
+    });
+    artefacts.insert("timing.json".into(), pretty(&timing)?);
+    interrupt::publish(|| {
+        output::publish(quest.out, &artefacts).map_err(Failure::work)?;
+        checkpoint.remove()
+    })?;
+    let mut out = std::io::stdout().lock();
+    if quest.json {
+        let text = serde_json::to_string_pretty(&frontier).map_err(Failure::work)?;
+        writeln!(out, "{text}")?;
+        return Ok(());
+    }
+    print(&frontier, &mut out)?;
+    writeln!(out, "\nresult: {}", quest.out.display())?;
+    Ok(())
+}
+
+/// What every plan says.
+fn complete(quest: &mut Quest<'_>) {
+    let files = quest.robot.files();
+    quest.plan["program"] = json!("prone");
+    quest.plan["version"] = json!(env!("CARGO_PKG_VERSION"));
+    quest.plan["commit"] = json!(env!("PRONE_COMMIT"));
+    quest.plan["engine"] = json!(prone_sim::engine_version());
+    quest.plan["solver"] = json!("cma-es, about the middle");
+    quest.plan["regime"] = json!(Regime::LOCOMOTION.name);
+    quest.plan["bases"] = quest.jobs.iter().map(|job| job.base.as_str()).collect();
+    quest.plan["robot"] = json!({
+        "name": quest.robot.robot().name,
+        "folder": files.folder,
+        "sha256": files.hash(),
+    });
+}
+
+/// New searches, one a job, or those that were interrupted.
+fn begin(quest: &Quest<'_>, checkpoint: &Checkpoint) -> Result<Vec<Search>, Failure> {
+    if quest.resume {
+        if let Some(mut searches) = checkpoint.read::<Vec<Search>>()? {
+            if searches.len() != quest.jobs.len() {
+                return Err(Failure::Input(anyhow!(
+                    "{} is the checkpoint of another search; without --resume it is replaced",
+                    checkpoint.path().display()
+                )));
+            }
+            for search in &mut searches {
+                search.allow(quest.budget).map_err(Failure::input)?;
+            }
+            return Ok(searches);
+        }
+        // Where nobody listens, the work goes on.
+        let _ = writeln!(
+            std::io::stderr(),
+            "there is no {}: starting from the beginning",
+            checkpoint.path().display()
+        );
+    } else {
+        checkpoint.announce_replacement();
+    }
+    let fresh = |_: &Job<'_>| Search::about_the_middle(quest.seed, quest.runs, quest.budget);
+    Ok(quest.jobs.iter().map(fresh).collect())
+}
+
+fn search(
+    quest: &Quest<'_>,
+    searches: &mut Vec<Search>,
+    checkpoint: &mut Checkpoint,
+) -> Result<(), Failure> {
+    for (index, job) in quest.jobs.iter().enumerate() {
+        let mut search = searches[index].clone();
+        let progress = SearchProgress::new(&search)?;
+        let mut kept = Ok(());
+        let end = job.hunt.proceed(&mut search, |search| {
+            progress.show(search);
+            searches[index].clone_from(search);
+            kept = checkpoint.keep(searches);
+            if kept.is_err() || interrupt::requested() {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        });
+        progress.finish();
+        kept?;
+        searches[index] = search;
+        checkpoint.write(searches)?;
+        if end == SearchEnd::Interrupted {
+            return Err(suspended(checkpoint));
+        }
+    }
+    Ok(())
+}
+
+fn suspended(checkpoint: &Checkpoint) -> Failure {
+    Failure::Paused(format!(
+        "the search is kept in {}, and --resume goes on from there",
+        checkpoint.path().display()
+    ))
+}
+
+/// What each run found, confirmed, and the cycles under their names.
+fn found(quest: &Quest<'_>, searches: &[Search]) -> (Frontier, Vec<Cycle>) {
+    let mut frontier = Frontier {
+        objective: quest.objective.name(),
+        margin_mm: quest.margin_mm,
+        found: Vec::new(),
+        compared: Vec::new(),
+    };
+    let mut gaits = Vec::new();
+    for (job, search) in quest.jobs.iter().zip(searches) {
+        for run in search.runs() {
+            let quoted = run.best().and_then(|best| job.hunt.quote(&best.point));
+            let Some((mut cycle, price)) = quoted else {
+                continue;
+            };
+            let stem = match (&quest.name, job.ceiling_mm) {
+                (Some(name), _) => name.clone(),
+                (None, Some(mm)) => format!("under-{}", mm.to_string().replace('.', "-")),
+                (None, None) => "open".to_owned(),
+            };
+            cycle.pull.name = format!("{stem}-seed-{}", run.seed);
+            let under = job
+                .ceiling_mm
+                .map_or_else(String::new, |mm| format!(" under {mm} mm"));
+            cycle.pull.description = format!(
+                "searched{under} about {} for {}, seed {}, {} evaluations",
+                job.base,
+                quest.objective.name(),
+                run.seed,
+                run.evaluations()
+            );
+            let ceiling = job.ceiling_mm.map_or(f64::INFINITY, |mm| mm * 1e-3);
+            let confirmed = frontier::confirm(&quest.confirmation, &cycle, ceiling);
+            frontier.found.push(Found::new(
+                job.ceiling_mm,
+                run.seed,
+                run.evaluations(),
+                &cycle,
+                &price,
+                confirmed,
+            ));
+            gaits.push(cycle);
+        }
+    }
+    if let Ok(cycle) = passage::find(COMPARED) {
+        let confirmed = frontier::confirm(&quest.confirmation, &cycle, f64::INFINITY);
+        if confirmed.settings.iter().any(|row| row.refused.is_none()) {
+            frontier.compared.push(Compared {
+                gait: COMPARED.to_owned(),
+                confirmed,
+            });
+        }
+    }
+    (frontier, gaits)
+}
+
+fn print(frontier: &Frontier, out: &mut impl std::io::Write) -> std::io::Result<()> {
+    writeln!(
+        out,
+        "{:>10}{:>6}{:>14}{:>9}{:>10}{:>12}{:>12}{:>11}  holds",
+        "ceiling", "seed", "mm per cycle", "mm/s", "top mm", "heat s/m", "stiff s/m", "violation"
+    )?;
+    let number = |value: Option<f64>, decimals: usize| {
+        value.map_or_else(|| "–".to_owned(), |value| format!("{value:.decimals$}"))
+    };
+    let rows = frontier.found.iter().map(|found| {
+        let ceiling = found
+            .ceiling_mm
+            .map_or_else(|| "–".to_owned(), |mm| format!("{mm} mm"));
+        (
+            ceiling,
+            found.seed.to_string(),
+            &found.confirmed,
+            Some(found.violation),
+        )
+    });
+    let compared = frontier.compared.iter();
+    let others = compared.map(|other| (other.gait.clone(), String::new(), &other.confirmed, None));
+    for (name, seed, confirmed, violation) in rows.chain(others) {
+        let first = confirmed.settings.first();
+        let stiff = confirmed
+            .settings
+            .iter()
+            .find(|row| row.setting == "stiff servos");
+        writeln!(
+            out,
+            "{name:>10}{seed:>6}{:>14}{:>9}{:>10}{:>12}{:>12}{:>11}  {}",
+            number(first.and_then(|row| row.mm_per_cycle), 1),
+            number(first.and_then(|row| row.mm_per_s), 1),
+            number(first.and_then(|row| row.top_mm), 1),
+            number(first.and_then(|row| row.heat_per_metre_s), 1),
+            number(stiff.and_then(|row| row.heat_per_metre_s), 1),
+            number(violation, 4),
+            if confirmed.holds { "yes" } else { "no" }
+        )?;
+    }
+    Ok(())
+}
