@@ -113,7 +113,7 @@ fn signals_keep_the_rows_and_leave_no_half_written_map() {
             let build = build("simulation", out, more);
             let mut command = Command::new("env");
             command
-                .arg("--default-signal=INT,TERM")
+                .arg("--default-signal=HUP,INT,TERM")
                 .arg(build.get_program());
             command.args(build.get_args());
             command
