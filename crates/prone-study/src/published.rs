@@ -21,6 +21,7 @@ pub const NOMINAL_DEG: [[f64; 2]; 3] = [[16.5, 16.5], [27.5, 27.5], [-30.0, -90.
 
 /// Table 3: c₃ to c₀ of θ3, θ4 and α of the optimal gait, rad, as printed: the last one has the wrong
 /// sign.
+#[expect(clippy::approx_constant, reason = "the digits that are printed")]
 pub const OPTIMAL_COEFFICIENTS: [[f64; 4]; 3] = [
     [0.2365, 0.0893, -0.3267, 0.28798],
     [1.8796, -0.1365, -1.7434, 0.47997],

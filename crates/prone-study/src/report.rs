@@ -304,7 +304,7 @@ impl Run {
             Self::Search(run) => said(&run.cuts),
             Self::Crawl(run) => run.notes.clone(),
             Self::Pull(run) => run.notes.clone(),
-            Self::Drawn(_) => Vec::new(),
+            Self::Drawn(run) => said(&run.cuts),
         }
     }
 }

@@ -28,9 +28,9 @@ const HEIGHT: f64 = 0.5;
 const MIDDLE: f64 = 0.16;
 
 /// One robot: pixels, width shown, m, and height of the point in the middle, m.
-const SIZE_CLOSE: (usize, usize) = (960, 360);
-const WIDTH_CLOSE: f64 = 1.0;
-const MIDDLE_CLOSE: f64 = 0.14;
+const SIZE_CLOSE: (usize, usize) = (960, 420);
+const WIDTH_CLOSE: f64 = 1.12;
+const MIDDLE_CLOSE: f64 = 0.1;
 /// Where the camera stands, seen from the robot: low enough to see under a plate, and so that the leg of
 /// a table, which is at the robot's hands at the start and at its trunk when it is below the panel, does
 /// not hide it.

@@ -145,32 +145,53 @@ pub fn generations(search: &SearchRecord) -> Result<Option<Figure>, FigureError>
             ),
         ),
     };
+    let known = |row: &GenerationRecord| match search.scores {
+        Scores::Published => row.mean_value.is_some(),
+        Scores::Graded => row.mean_feasible_value.is_some(),
+    };
+    let means = rows.iter().any(known);
     let key = [("best of the run so far", 0), ("mean of the generation", 1)];
+    let key = key.into_iter().take(if means { 2 } else { 1 });
     let sheet = Sheet {
         key: key
             .map(|(label, index)| KeyEntry::line(label.to_owned(), stroke(index), None))
-            .to_vec(),
+            .collect(),
         bar: None,
         columns: 2,
         frame_height: 260.0,
         panels: vec![left, right],
     };
-    let mean = match search.scores {
-        Scores::Published => "all gaits of the generation",
-        Scores::Graded => "the gaits of the generation that keep the rules",
+    let (mean, searched) = match search.scores {
+        Scores::Published => ("all gaits of the generation", "the torque part"),
+        Scores::Graded => (
+            "the gaits of the generation that keep the rules",
+            search.objective.as_str(),
+        ),
+    };
+    let dashed = if means {
+        format!(" Dashed: the mean of {mean}.")
+    } else {
+        String::new()
     };
     let wording = Wording {
         stem: "fig-24-search".to_owned(),
         number: "24",
-        title: "Best and mean of each generation".to_owned(),
+        title: if means {
+            "Best and mean of each generation"
+        } else {
+            "Best of each generation"
+        }
+        .to_owned(),
         caption: format!(
-            "The run with seed {} over its generations: left the rules that are broken, right the \
-             torque part. Solid: the best gait so far. Dashed: the mean of {mean}. Fewer violations \
-             win, and torque decides between equals. Source: our search.",
+            "The run with seed {} over its generations: left the rules that are broken, right {searched}. \
+             Solid: the best gait so far.{dashed} Fewer violations win, and {searched} decides between \
+             equals. Source: our search.",
             search.seed
         ),
-        alt: "Line plots of violations and of torque, best and mean, against generation."
-            .to_owned(),
+        alt: format!(
+            "Line plots of broken rules and of {searched}, the best of each generation, against \
+             generation."
+        ),
     };
     Ok(Some(wording.with(&sheet)))
 }
@@ -283,7 +304,7 @@ pub fn confirmation(
     let wording = Wording {
         stem: "confirmation".to_owned(),
         number: "",
-        title: format!("The found gait in simulation: {} over {base}'s", objective),
+        title: format!("The found gait in simulation: {objective} over {base}'s"),
         caption: format!(
             "Each gait simulated from its own first pose, settled, at each duration of the pull and \
              in each contact regime; below 1 it costs less than {base}. Source: our simulation."

@@ -44,6 +44,10 @@ pub(super) struct Line<'a> {
     cells: &'a [String],
 }
 
+/// A cell that is neither empty nor a number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct NoNumber;
+
 /// A column that the table is known to have.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Column(usize);
@@ -64,7 +68,7 @@ impl CutTable {
                 cut = Some((lines.last().map_or(1, |(line, _)| line + 1), Damage::Line));
                 break;
             };
-            let line = record.position().map_or(1, |at| at.line());
+            let line = record.position().map_or(1, csv::Position::line);
             #[expect(clippy::cast_possible_truncation, reason = "lines of a file in memory")]
             let line = line as usize;
             let cells: Vec<String> = record.iter().map(str::to_owned).collect();
@@ -111,13 +115,11 @@ impl CutTable {
     pub(super) fn rows<T>(&mut self, mut read: impl FnMut(&Line<'_>) -> Option<T>) -> Vec<T> {
         let mut rows = Vec::new();
         for (line, cells) in &self.lines {
-            match read(&Line { cells }) {
-                Some(row) => rows.push(row),
-                None => {
-                    self.cut = Some((*line, Damage::Line));
-                    break;
-                }
-            }
+            let Some(row) = read(&Line { cells }) else {
+                self.cut = Some((*line, Damage::Line));
+                break;
+            };
+            rows.push(row);
         }
         rows
     }
@@ -160,12 +162,12 @@ impl<'a> Line<'a> {
         Some(numbers)
     }
 
-    /// A number, or nothing where the cell is empty; `None` where it is neither.
-    pub(super) fn optional(&self, column: Column) -> Option<Option<f64>> {
+    /// A number, or nothing where the cell is empty.
+    pub(super) fn optional(&self, column: Column) -> Result<Option<f64>, NoNumber> {
         if self.text(column).is_empty() {
-            Some(None)
+            Ok(None)
         } else {
-            self.number(column).map(Some)
+            self.number(column).map(Some).ok_or(NoNumber)
         }
     }
 

@@ -55,7 +55,7 @@ impl Page<'_> {
                         @if let Some(replay) = &replay { (replay_section(replay)) }
                         (below)
                     }
-                    (self.footer())
+                    (footer())
                 }
             }
         };
@@ -200,14 +200,14 @@ impl Page<'_> {
             }
         }
     }
+}
 
-    fn footer(&self) -> Markup {
-        html! {
-            footer {
-                p {
-                    "Written by prone " (env!("CARGO_PKG_VERSION")) " from records that it made; nothing \
-                     was simulated for this page. Text without a source is about the NAO."
-                }
+fn footer() -> Markup {
+    html! {
+        footer {
+            p {
+                "Written by prone " (env!("CARGO_PKG_VERSION")) " from records that it made; nothing was \
+                 simulated for this page. Text without a source is about the NAO."
             }
         }
     }

@@ -132,8 +132,8 @@ fn history_rows(
             best_violation: violation?,
             best_value: torque?,
             mean_violation: mean_violation?,
-            mean_value: line.optional(mean)?,
-            mean_feasible_value: line.optional(mean_feasible)?,
+            mean_value: line.optional(mean).ok()?,
+            mean_feasible_value: line.optional(mean_feasible).ok()?,
         };
         Some((line.whole(of)?, row))
     });
@@ -151,7 +151,7 @@ fn confirmed(folder: &Folder, cuts: &mut Vec<Cut>) -> Result<Vec<ConfirmedRecord
             regime: line.text(regime).to_owned(),
             gait: line.text(gait).to_owned(),
             duration_s: line.number(duration)?,
-            ratio: line.optional(ratio)?,
+            ratio: line.optional(ratio).ok()?,
         })
     });
     cuts.extend(table.cut());

@@ -60,7 +60,10 @@ pub(super) fn of(runs: &[Run]) -> Result<Vec<Shown>, ReportError> {
                 drawings.extend(figures::parameters(&run.chains));
                 add(&mut found, &run.folder, drawings, &[])?;
             }
-            Run::Drawn(run) => add(&mut found, &run.folder, Vec::new(), &run.recorded)?,
+            Run::Drawn(run) => {
+                let drawings = run.drawing()?.into_iter().collect();
+                add(&mut found, &run.folder, drawings, &run.recorded)?;
+            }
             Run::Pull(_) => {}
         }
     }

@@ -126,7 +126,7 @@ fn costs(
             gait: line.text(gait).to_owned(),
             duration_s: line.number(duration)?,
             cost_n2m2s: line.number(cost)?,
-            published_n2m2s: line.optional(published)?,
+            published_n2m2s: line.optional(published).ok()?,
         })
     });
     if costs.len() < expected {
