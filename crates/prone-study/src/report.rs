@@ -26,6 +26,7 @@ mod sections;
 mod shown;
 mod study;
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -166,6 +167,7 @@ impl Report {
             runs: &runs,
             shown: &shown,
             cards: &cards,
+            left_out: BTreeSet::new(),
         };
         let (html, replayed) = page.html()?;
         Ok(Self {

@@ -1,5 +1,7 @@
 //! The page: its order, its figures, and what stands where a figure is not there.
 
+use std::collections::BTreeSet;
+
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD as BASE64;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
@@ -19,19 +21,30 @@ const STYLE: &str = include_str!("style.css");
 const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; \
                       img-src data:; base-uri 'none'; form-action 'none'";
 
+/// What stands around the sections, at most, bytes; and in the place of a picture.
+const AROUND: usize = 4_000;
+const PLACE: usize = 300;
+
 /// What a page is made of.
 pub(super) struct Page<'a> {
     pub(super) runs: &'a [Run],
     pub(super) shown: &'a [Shown],
     pub(super) cards: &'a [Card],
+    /// Names of the pictures for which it has no room.
+    pub(super) left_out: BTreeSet<String>,
 }
 
 impl Page<'_> {
     /// The page, and the folders that its replay shows.
-    pub(super) fn html(&self) -> Result<(String, Vec<String>), ReportError> {
+    pub(super) fn html(mut self) -> Result<(String, Vec<String>), ReportError> {
         let above = self.above();
-        let below = self.below();
-        let room = LARGEST_PAGE.saturating_sub(above.0.len() + below.0.len() + 2_000 + STYLE.len());
+        let mut below = self.below();
+        let room = LARGEST_PAGE.saturating_sub(above.0.len() + AROUND + STYLE.len());
+        if let Some(excess) = below.0.len().checked_sub(room) {
+            self.left_out = self.last_pictures(excess);
+            below = self.below();
+        }
+        let room = room.saturating_sub(below.0.len());
         let replay = replay::of(self.runs, room)?;
         let replayed = replay
             .as_ref()
@@ -60,6 +73,24 @@ impl Page<'_> {
             }
         };
         Ok((page.into_string(), replayed))
+    }
+
+    /// The last pictures, as many as it takes to save so many bytes.
+    fn last_pictures(&self, excess: usize) -> BTreeSet<String> {
+        let mut saved = 0;
+        let pictures = self.shown.iter().rev().filter_map(|shown| {
+            let Image::Recorded { small, svg, .. } = &shown.image else {
+                return None;
+            };
+            Some((shown, small.as_ref().unwrap_or(svg).len()))
+        });
+        let last = pictures.take_while(|(_, bytes)| {
+            let enough = saved >= excess;
+            // As base64, less what stands in its place.
+            saved += (bytes / 3 * 4).saturating_sub(PLACE);
+            !enough
+        });
+        last.map(|(shown, _)| shown.stem.clone()).collect()
     }
 
     /// What is before the replay.
@@ -154,7 +185,7 @@ impl Page<'_> {
             .collect();
         html! {
             @if figures.is_empty() { (empty(place)) }
-            @for figure in &figures { (captioned(figure, self.runs.len() > 1, place.published)) }
+            @for figure in &figures { (self.captioned(figure, place.published)) }
         }
     }
 
@@ -184,6 +215,30 @@ impl Page<'_> {
         }
     }
 
+    fn captioned(&self, figure: &Shown, published: Option<&str>) -> Markup {
+        html! {
+            figure id=(figure.stem) {
+                @if self.left_out.contains(&figure.stem) {
+                    div.place { p {
+                        "Left out, as the page would be too large: " code { "figures/" (figure.stem) ".png" }
+                        " of a report that is written into a folder."
+                    } }
+                } @else {
+                    (image(figure))
+                }
+                figcaption {
+                    strong {
+                        @if !figure.number.is_empty() { "Figure " (figure.number) ". " }
+                        (figure.title) ". "
+                    }
+                    (figure.caption)
+                    @if let Some(published) = published { " " (published) }
+                    @if self.runs.len() > 1 { " " span.run { "From " (figure.runs.join(", ")) "." } }
+                }
+            }
+        }
+    }
+
     /// Figures that the chapter does not have.
     fn beyond(&self) -> Markup {
         let others: Vec<&Shown> = self
@@ -195,7 +250,7 @@ impl Page<'_> {
             @if !others.is_empty() {
                 section {
                     h2 { "Beyond the chapter" }
-                    @for figure in others { (captioned(figure, self.runs.len() > 1, None)) }
+                    @for figure in others { (self.captioned(figure, None)) }
                 }
             }
         }
@@ -257,23 +312,6 @@ fn empty(place: &Place) -> Markup {
     }
 }
 
-fn captioned(figure: &Shown, several: bool, published: Option<&str>) -> Markup {
-    html! {
-        figure id=(figure.stem) {
-            (image(figure))
-            figcaption {
-                strong {
-                    @if !figure.number.is_empty() { "Figure " (figure.number) ". " }
-                    (figure.title) ". "
-                }
-                (figure.caption)
-                @if let Some(published) = published { " " (published) }
-                @if several { " " span.run { "From " (figure.runs.join(", ")) "." } }
-            }
-        }
-    }
-}
-
 fn image(figure: &Shown) -> Markup {
     let picture = |kind: &str, bytes: &[u8]| {
         html! { img alt=(figure.alt) src={ "data:image/" (kind) ";base64," (BASE64.encode(bytes)) }; }
@@ -293,4 +331,58 @@ fn image(figure: &Shown) -> Markup {
 /// An SVG document as a part of a page: without its XML declaration.
 fn inline(svg: &str) -> &str {
     svg.find("<svg").map_or(svg, |start| &svg[start..])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn picture(number: &str, bytes: usize) -> Shown {
+        Shown {
+            stem: format!("picture-{number}"),
+            number: number.to_owned(),
+            title: "A picture".to_owned(),
+            caption: "What it shows.".to_owned(),
+            alt: "A robot.".to_owned(),
+            runs: vec!["run".to_owned()],
+            image: Image::Recorded {
+                svg: Vec::new(),
+                png: Vec::new(),
+                small: Some(vec![7; bytes]),
+            },
+        }
+    }
+
+    fn page(shown: &[Shown]) -> String {
+        let page = Page {
+            runs: &[],
+            shown,
+            cards: &[],
+            left_out: BTreeSet::new(),
+        };
+        page.html().unwrap().0
+    }
+
+    #[test]
+    fn a_page_that_would_be_too_large_leaves_its_last_pictures_out() {
+        let all = ["22", "23", "27", "28"].map(|number| picture(number, 1_500_000));
+        let (fits, too_much) = (page(&all[..2]), page(&all));
+        assert!(!fits.contains("Left out, as"));
+        assert!(too_much.len() <= LARGEST_PAGE && too_much.len() > LARGEST_PAGE / 2);
+        assert_eq!(too_much.matches("Left out, as").count(), 2);
+        assert!(too_much.contains("<code>figures/picture-28.png"));
+        assert!(!too_much.contains("<code>figures/picture-22.png"));
+        // What is left out is named and described all the same.
+        assert_eq!(too_much.matches("What it shows.").count(), all.len());
+    }
+
+    #[test]
+    fn places_without_figures_say_what_fills_them() {
+        let empty = page(&[]);
+        assert_eq!(
+            empty.matches("class=\"place\"").count(),
+            chapter::places().count()
+        );
+        assert!(empty.contains("<code>prone reproduce</code> makes it"));
+    }
 }

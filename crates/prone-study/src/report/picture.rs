@@ -32,6 +32,8 @@ fn encode(
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_palette(frame.palette.clone().unwrap_or_default());
     encoder.set_compression(png::Compression::High);
+    // Neighbouring entries of a palette are no neighbouring colours.
+    encoder.set_filter(png::Filter::NoFilter);
     let mut writer = encoder.write_header()?;
     writer.write_image_data(&frame.buffer)?;
     writer.finish()?;
