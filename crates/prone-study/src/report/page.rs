@@ -185,7 +185,10 @@ impl Page<'_> {
             .collect();
         html! {
             @if figures.is_empty() { (empty(place)) }
-            @for figure in &figures { (self.captioned(figure, place.published)) }
+            // What is published stands below the first of several.
+            @for (index, figure) in figures.iter().enumerate() {
+                (self.captioned(figure, place.published.filter(|_| index == 0)))
+            }
         }
     }
 
