@@ -47,7 +47,11 @@ impl RobotInfo {
             name: robot.robot().name.clone(),
             folder: robot.files().folder.clone(),
             sha256: robot.files().hash(),
-            standing_height_mm: robot.robot().standing_height.map(|metres| metres * 1e3),
+            // The digits of robot.toml, which metres do not keep.
+            standing_height_mm: robot
+                .robot()
+                .standing_height
+                .map(|metres| (metres * 1e9).round() / 1e6),
         }
     }
 }

@@ -41,14 +41,10 @@ impl Tables<'_> {
             Some(imu) => Some(imu::read(self, imu, &parts)?),
         };
         let height = table.standing_height_mm.map(|height_mm| {
-            let within = (0.0..=bounds::LENGTH * 1e3).contains(&height_mm) && height_mm > 0.0;
-            within.then_some(height_mm * 1e-3).ok_or_else(|| {
-                let largest = bounds::LENGTH * 1e3;
-                let message = format!(
-                    "standing_height_mm = {height_mm:?} is not above 0 and up to {largest}"
-                );
-                self.error(&table.model, message)
-            })
+            let largest = bounds::LENGTH * 1e3;
+            let height_mm =
+                self.positive(&table.model, "standing_height_mm", height_mm, largest)?;
+            Ok::<_, FileError>(height_mm * 1e-3)
         });
         let mut robot = Robot {
             name: table.name,
