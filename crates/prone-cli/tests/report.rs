@@ -143,6 +143,11 @@ fn a_page_loads_nothing_and_says_what_it_shows() {
     let frames = elements(&page, "iframe");
     assert_eq!(frames.len(), 1);
     assert!(frames[0].contains("sandbox=\"allow-scripts\""));
+    // The crawl that was named, and in the report of a reproduction one gait beside the other.
+    assert!(frames[0].contains("title=\"Replay: low-175 · under-plate\""));
+    let own = text(Path::new(&results().reproduction).join("report.html"));
+    let title = "title=\"Replay: nominal · level beside optimal · level\"";
+    assert!(elements(&own, "iframe")[0].contains(title));
     let said = images.iter().map(|image| (*image, "alt=\""));
     let said = said.chain(drawings.map(|div| (*div, "aria-label=\"")));
     for (element, attribute) in said.chain([(frames[0], "title=\"")]) {

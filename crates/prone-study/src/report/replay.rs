@@ -25,8 +25,8 @@ struct Record<'a> {
     run: &'a view::record::Run,
 }
 
-/// As many records as `room` bytes of the page hold, two at most: of those that the user named first,
-/// then the pulls within a reproduction, which are one gait beside the other.
+/// As many records as `room` bytes of the page hold, two at most: of those that the user named or,
+/// without any, the pulls within a reproduction, which are one gait beside the other.
 pub(super) fn of(runs: &[Run], room: usize) -> Result<Option<Replay>, ReportError> {
     fn record(run: &Run) -> Option<(u8, Record<'_>)> {
         let (folder, replay, within) = match run {
@@ -44,6 +44,12 @@ pub(super) fn of(runs: &[Run], room: usize) -> Result<Option<Replay>, ReportErro
     let mut records: Vec<(u8, Record<'_>)> = runs.iter().filter_map(record).collect();
     // Stable: equals keep their order.
     records.sort_by_key(|(place, _)| *place);
+    // One that was named is not put beside one that was not.
+    let first = records.first().map(|(place, _)| *place);
+    let alike = records
+        .iter()
+        .take_while(|(place, _)| Some(*place) == first)
+        .count();
     let records: Vec<Record<'_>> = records.into_iter().map(|(_, record)| record).collect();
     if records.is_empty() {
         return Ok(None);
@@ -54,7 +60,7 @@ pub(super) fn of(runs: &[Run], room: usize) -> Result<Option<Replay>, ReportErro
             .map(|record| record.name.to_owned())
             .collect()
     };
-    for count in (0..=SIDE_BY_SIDE.min(records.len())).rev() {
+    for count in (0..=SIDE_BY_SIDE.min(alike)).rev() {
         let (shown, left_out) = records.split_at(count);
         let frame = if shown.is_empty() {
             html! {}
