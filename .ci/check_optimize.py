@@ -10,8 +10,9 @@ import tomllib
 from pathlib import Path
 
 FILES = [
-    "confirmation.csv", "figures/confirmation.png", "figures/confirmation.svg",
-    "figures/fig-24-search.png", "figures/fig-24-search.svg", "gait.toml", "history.csv",
+    "chains.csv", "confirmation.csv", "figures.json", "figures/confirmation.png",
+    "figures/confirmation.svg", "figures/fig-24-search.png", "figures/fig-24-search.svg", "gait.toml",
+    "history.csv",
     "result.json", "run.json", "timing.json",
 ]
 

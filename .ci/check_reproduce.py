@@ -17,6 +17,8 @@ DURATIONS = [1, 5]
 CONTROL_STEP_S = 0.05
 
 FIGURES = [
+    "fig-22-nominal-start",
+    "fig-23-thesis-nominal-under",
     "fig-25-gait-parameters",
     "fig-26-nominal-chain",
     "fig-27-nominal-frames",
@@ -43,6 +45,7 @@ RECORD = ["run.json", "model.json", "rows.csv", "contacts.csv"]
 
 FILES = sorted(
     ["figures/crawl.png", "report.html", "run.json", "summary.json", "timing.json", "costs.csv", "agreement.csv"]
+    + ["chains.csv", "figures.json"]
     + [f"torques/{gait}-{duration:04.1f}s.csv" for gait in GAITS for duration in DURATIONS]
     + [f"figures/{figure}.{kind}" for figure in FIGURES for kind in ("svg", "png")]
     + [f"{folder}/{name}" for folder in RECORDS for name in RECORD]

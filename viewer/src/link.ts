@@ -18,5 +18,6 @@ export function readLink(): Link {
 
 export function writeLink(time: number, view: ViewName): void {
   const hash = `#t=${Number(time.toFixed(2))}&view=${view}`;
-  if (hash !== location.hash) history.replaceState(null, "", hash);
+  // Within the frame of a report there is no address to keep.
+  if (location.protocol !== "about:" && hash !== location.hash) history.replaceState(null, "", hash);
 }

@@ -34,6 +34,8 @@ export class Browser {
   /** All that the pages asked for, and every complaint. */
   requests = [];
   errors = [];
+  /** The frames that have appeared in the page, each with a process of its own: what `value` and `until` take. */
+  frames = [];
   #profile = mkdtempSync(join(tmpdir(), "prone-chromium-"));
   #process;
   #waiting = new Map();
@@ -51,7 +53,14 @@ export class Browser {
     this.#process.on("exit", () => this.#fail(new Error("Chromium has ended")));
   }
 
-  async open(url, { width, height, dark = false, scale = 1 }) {
+  /** Opens a replay, and waits for its first picture. */
+  async open(url, options) {
+    await this.openPage(url, options);
+    await this.until("window.proneReplay?.stage?.frames > 0");
+  }
+
+  /** Opens any page. */
+  async openPage(url, { width, height, dark = false, scale = 1 }) {
     if (!this.#session) await this.#attach();
     await this.send("Emulation.setDeviceMetricsOverride", {
       width,
@@ -64,23 +73,20 @@ export class Browser {
     // Away first: a new hash alone loads nothing.
     await this.send("Page.navigate", { url: "about:blank" });
     await this.send("Page.navigate", { url });
-    await this.until("window.proneReplay?.stage?.frames > 0");
+    await this.until("document.readyState === 'complete'");
   }
 
-  /** What an expression of the page is; promises are waited for. */
-  async value(expression) {
-    const { result, exceptionDetails } = await this.send("Runtime.evaluate", {
-      expression,
-      awaitPromise: true,
-      returnByValue: true,
-    });
+  /** What an expression of the page, or of a frame in it, is; promises are waited for. */
+  async value(expression, frame = this.#session) {
+    const asked = { expression, awaitPromise: true, returnByValue: true };
+    const { result, exceptionDetails } = await this.send("Runtime.evaluate", asked, frame);
     if (exceptionDetails) throw new Error(JSON.stringify(exceptionDetails));
     return result.value;
   }
 
-  async until(expression, seconds = 30) {
+  async until(expression, seconds = 30, frame = this.#session) {
     const end = Date.now() + seconds * 1e3;
-    while (!(await this.value(expression))) {
+    while (!(await this.value(expression, frame))) {
       if (Date.now() > end) throw new Error(`not within ${seconds} s: ${expression}`);
       await new Promise((done) => setTimeout(done, 50));
     }
@@ -101,9 +107,9 @@ export class Browser {
     return Buffer.from(data, "base64");
   }
 
-  send(method, params = {}) {
+  send(method, params = {}, session = this.#session) {
     const id = ++this.#last;
-    const message = { id, method, params, sessionId: this.#session };
+    const message = { id, method, params, sessionId: session };
     return new Promise((done, failed) => {
       this.#waiting.set(id, { done, failed });
       this.#process.stdio[3].write(`${JSON.stringify(message)}\0`);
@@ -124,6 +130,13 @@ export class Browser {
     const { sessionId } = await this.send("Target.attachToTarget", { targetId, flatten: true });
     this.#session = sessionId;
     for (const domain of ["Runtime", "Log", "Network", "Page"]) await this.send(`${domain}.enable`);
+    const follow = { autoAttach: true, waitForDebuggerOnStart: false, flatten: true };
+    await this.send("Target.setAutoAttach", follow);
+  }
+
+  async #follow(session) {
+    for (const domain of ["Runtime", "Log", "Network"]) await this.send(`${domain}.enable`, {}, session);
+    this.frames.push(session);
   }
 
   #read(data) {
@@ -138,6 +151,9 @@ export class Browser {
       this.#waiting.delete(id);
       if (error) failed(new Error(error.message));
       else done(result);
+    } else if (method === "Target.attachedToTarget") {
+      // A frame may go again while it is looked at.
+      if (params.targetInfo.type === "iframe") this.#follow(params.sessionId).catch(() => {});
     } else if (method === "Network.requestWillBeSent") this.requests.push(params.request.url);
     else if (method === "Runtime.exceptionThrown") this.errors.push(JSON.stringify(params.exceptionDetails));
     else if (method === "Runtime.consoleAPICalled" && ["error", "warning", "assert"].includes(params.type)) {

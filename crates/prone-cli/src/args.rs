@@ -5,6 +5,7 @@ mod export;
 pub(crate) mod optimize;
 pub(crate) mod passage;
 pub(crate) mod pricing;
+mod report;
 mod torque_map;
 mod view;
 
@@ -16,6 +17,7 @@ use prone::gait::PhaseDuration;
 
 pub(crate) use crawl::{CrawlCommand, CrawlRunArgs, ServoName};
 pub(crate) use export::{ExportArgs, Format, ViewName};
+pub(crate) use report::ReportArgs;
 pub(crate) use torque_map::{BuildArgs, CompareArgs, PlotArgs, SourceArg, TorqueMapCommand};
 pub(crate) use view::ViewArgs;
 
@@ -38,6 +40,7 @@ Examples:
                                           crawl under a plate
   prone crawl under --ceiling-mm 180      whether the robot gets under it, how, and how fast
   prone view out/run                      replay a recorded run in the browser
+  prone report out/reproduce out/run      figures, report card and replay on one page
   prone export out/low --format mcap      a recorded crawl for other tools
   prone gait show nominal                 a gait's joints, limits and heights
   prone robot check robots/nao            validate a robot and print its chain")]
@@ -65,6 +68,8 @@ pub(crate) enum Command {
     /// Look at robots
     #[command(subcommand)]
     Robot(RobotCommand),
+    /// Make one page with figures, report card and replay of recorded runs
+    Report(ReportArgs),
     /// Build, compare and draw maps of static joint torques
     #[command(subcommand)]
     TorqueMap(TorqueMapCommand),

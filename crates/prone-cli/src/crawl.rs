@@ -131,8 +131,8 @@ fn files(
         .build()
         .map_err(|error| Failure::Work(anyhow!("cannot start worker threads: {error}")))?;
     let program = Program {
-        version: env!("CARGO_PKG_VERSION"),
-        commit: env!("PRONE_COMMIT"),
+        version: env!("CARGO_PKG_VERSION").into(),
+        commit: env!("PRONE_COMMIT").into(),
     };
     let recording = Recording {
         robot: &plan.robot,

@@ -19,6 +19,7 @@ mod passage;
 mod pricing;
 mod progress;
 mod record_folder;
+mod report;
 mod reproduce;
 mod robot;
 mod table_file;
@@ -43,6 +44,7 @@ fn main() -> ExitCode {
         Command::Cost(args) => cost::run(&args),
         Command::Gait(GaitCommand::Show(args)) => gait::show(&args),
         Command::Robot(RobotCommand::Check(args)) => robot::check(&args),
+        Command::Report(args) => report::run(&args),
         Command::TorqueMap(command) => torque_map::run(&command),
         Command::View(args) => view::run(&args),
         Command::Completions { shell } => completions(shell),

@@ -90,7 +90,7 @@ pub(crate) fn run(args: &OptimizeArgs) -> Result<(), Failure> {
     let outcome = outcome::of(&hunt, &search, end, gait, unit, others, &confirmation)
         .map_err(Failure::work)?;
 
-    let mut artefacts = files::artefacts(&search, gait, &outcome, &confirmation, &pricing)?;
+    let mut artefacts = files::artefacts(&search, gait, others, &outcome, &confirmation, &pricing)?;
     artefacts.insert("run.json".into(), pretty(&plan)?);
     let timing = json!({
         "wall_s": started.elapsed().as_secs_f64(),

@@ -16,7 +16,11 @@ pub(crate) fn say_incomplete(records: &[(impl AsRef<Path>, Vec<String>)]) -> Res
             .iter()
             .map(move |shortfall| format!("{folder}: {shortfall}"))
     });
-    let sentences: Vec<String> = sentences.collect();
+    say_missing(&sentences.collect::<Vec<_>>())
+}
+
+/// The same of sentences that name their files.
+pub(crate) fn say_missing(sentences: &[String]) -> Result<(), Failure> {
     if sentences.is_empty() {
         return Ok(());
     }

@@ -46,8 +46,8 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<(), Failure> {
         .build()
         .map_err(|error| Failure::Work(anyhow!("cannot start worker threads: {error}")))?;
     let program = Program {
-        version: env!("CARGO_PKG_VERSION"),
-        commit: env!("PRONE_COMMIT"),
+        version: env!("CARGO_PKG_VERSION").into(),
+        commit: env!("PRONE_COMMIT").into(),
     };
 
     let gait_files = gait_files();

@@ -28,8 +28,8 @@ pub(crate) fn run(command: &TorqueMapCommand) -> Result<(), Failure> {
 
 fn program() -> Program {
     Program {
-        version: env!("CARGO_PKG_VERSION"),
-        commit: env!("PRONE_COMMIT"),
+        version: env!("CARGO_PKG_VERSION").into(),
+        commit: env!("PRONE_COMMIT").into(),
     }
 }
 

@@ -175,10 +175,13 @@ fn records_are_the_same_on_any_number_of_threads_and_replace_each_other() {
         [
             "contacts.csv",
             "cycles.csv",
+            "figures/fig-22-low-175-start.png",
+            "figures/fig-22-low-175-start.svg",
             "figures/fig-28-low-175-sequence.png",
             "figures/fig-28-low-175-sequence.svg",
             "figures/fig-31-low-175-angles.png",
             "figures/fig-31-low-175-angles.svg",
+            "figures.json",
             "model.json",
             "plate-contacts.csv",
             "rows.csv",

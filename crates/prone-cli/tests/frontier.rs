@@ -237,4 +237,19 @@ fn whole_cycles_are_optimised_too() {
     assert_eq!(read["objective"], "heat");
     // The published cycle stands beside it.
     assert_eq!(read["compared"][0]["gait"], "thesis-nominal");
+
+    // Its report has the generations, and what was found.
+    let page = home.path().join("report.html").display().to_string();
+    let done = prone(&["report", &out, "--out", &page, "--json"]);
+    succeeded(&done);
+    let numbers: Value = serde_json::from_slice(&done.stdout).unwrap();
+    let figures = numbers["figures"].as_array().unwrap();
+    let numbers = figures
+        .iter()
+        .map(|figure| figure["number"].as_str().unwrap());
+    assert_eq!(numbers.collect::<Vec<_>>(), ["24"]);
+    let page = fs::read_to_string(page).unwrap();
+    for said in ["heat per metre, s/m", "Best of each generation", "cooler"] {
+        assert!(page.contains(said), "{said}");
+    }
 }

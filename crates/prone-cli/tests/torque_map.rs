@@ -238,6 +238,7 @@ fn plots_appear_whole_and_replace_each_other() {
     assert_eq!(stdout.lines().count(), 2 * 4);
     succeeded(plot(&["--theta3-deg", "15"]));
     let files = [
+        "figures.json",
         "run.json",
         "torque-map-theta3+15.00deg.png",
         "torque-map-theta3+15.00deg.svg",

@@ -24,6 +24,8 @@ pub struct RobotFile {
     pub name: String,
     /// The MJCF file beside this one.
     pub model: Name,
+    /// How high the robot stands, mm.
+    pub standing_height_mm: Option<f64>,
     /// The crawling chain.
     pub chain: ChainTable,
     /// Bodies whose contacts are recorded together; every body of the model once.
@@ -136,6 +138,8 @@ pub struct MotorTable {
     pub nominal_mnm: f64,
     /// Stall torque at the motor shaft, mN·m.
     pub stall_mnm: f64,
+    /// Speed of the motor shaft without load, turns per minute.
+    pub no_load_rpm: Option<f64>,
 }
 
 /// `[[drives]]`

@@ -3,7 +3,9 @@
 //! Both are means over tenths of the phase. The first two tenths are left out: there the robot
 //! still travels from its start pose and lies on its belly.
 
-use serde::Serialize;
+use std::borrow::Cow;
+
+use serde::{Deserialize, Serialize};
 
 use crate::published::TorqueBin;
 use crate::record::{JOINTS, PullRecord};
@@ -14,14 +16,14 @@ pub const FROM_PERCENT: f64 = 20.0;
 const BINS: usize = 10;
 
 /// Agreement of one joint over one pull.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Agreement {
     /// Name of the gait.
     pub gait: String,
     /// Duration of the phase, s.
     pub duration_s: f64,
     /// One of [`JOINTS`].
-    pub joint: &'static str,
+    pub joint: Cow<'static, str>,
     /// Root of the mean squared difference, N·m.
     pub rms_nm: f64,
     /// Pearson's correlation; `None` where one of the two does not vary.
@@ -52,7 +54,7 @@ fn of_pull(pull: &PullRecord, bins: &[TorqueBin]) -> Vec<Agreement> {
             Agreement {
                 gait: pull.gait.clone(),
                 duration_s: pull.duration_s,
-                joint: JOINTS[joint],
+                joint: JOINTS[joint].into(),
                 rms_nm: rms(&pairs),
                 correlation: correlation(&pairs),
             }

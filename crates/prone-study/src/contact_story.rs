@@ -1,11 +1,11 @@
 //! Which part carries the body when.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::record::PullRecord;
 
 /// Shares of the ground's normal force over one pull.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ContactStory {
     /// Name of the gait.
     pub gait: String,

@@ -4,6 +4,7 @@
 //! read what [`prone_sim::crawl`] measured.
 
 pub(crate) mod frames;
+pub mod joints;
 mod model;
 pub(crate) mod pull;
 pub mod record;

@@ -31,9 +31,11 @@ mod tests;
 mod torque;
 mod torque_map;
 
-pub(crate) use crawl_angles::figure as crawl_angles;
+pub use crawl_angles::{AngleRecord, AngleRow, figure as crawl_angles};
 pub use frontier::figure as frontier_figure;
-pub use search::{Scores, figures as search_figures};
+pub use search::{
+    ConfirmedRecord, GenerationRecord, Scores, SearchRecord, confirmation, generations,
+};
 
 use crate::record::{ChainRecord, CostRecord, PullRecord};
 use sheet::Sheet;
@@ -124,6 +126,12 @@ const NUMBERED: [GaitNumbers; 2] = [
         published_divergence_s: 0.175,
     },
 ];
+
+/// Figure 25 of some gaits; nothing without chains.
+pub(crate) fn parameters(chains: &[ChainRecord]) -> Option<Figure> {
+    check::chains(chains).ok()?;
+    parameters::figure(chains)
+}
 
 /// All figures that the records allow, in the order of their numbers.
 ///

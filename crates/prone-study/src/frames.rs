@@ -84,6 +84,34 @@ pub(crate) fn of(
     stacked(&pictures, &percents, wording)
 }
 
+/// Figure 22: the robot before a pull.
+pub(crate) fn start(
+    world: &World,
+    gait: &str,
+    posture: &str,
+    snapshot: &Snapshot,
+) -> Result<Frames, FramesError> {
+    let wording = Wording {
+        stem: format!("fig-22-{gait}-start"),
+        number: "22",
+        title: "The simulated robot before a pull".to_owned(),
+        caption: format!(
+            "The posture from which our pulls begin: {posture}, laid on the belly and held for a \
+             second, ray cast from the simulation. Toes and elbows are planted ahead of and behind \
+             the body, which the floor still carries. Lines on the floor are 100 mm apart, heavy \
+             ones 500 mm."
+        ),
+        alt: "The simulated robot from its right, flat on its belly, legs behind it on the toes, \
+              forearms on the floor ahead of the shoulders."
+            .to_owned(),
+    };
+    stacked(
+        &[from_the_right(world, snapshot)],
+        &[String::new()],
+        wording,
+    )
+}
+
 /// What is said about frames.
 pub(crate) struct Wording {
     pub(crate) stem: String,
@@ -118,12 +146,16 @@ pub(crate) fn stacked(
 
 /// One larger picture, for a title page.
 pub(crate) fn cover(world: &World, snapshot: &Snapshot) -> Result<Vec<u8>, FramesError> {
+    Ok(from_the_right(world, snapshot).png()?)
+}
+
+fn from_the_right(world: &World, snapshot: &Snapshot) -> Picture {
     let centre = world.centre_of_mass(snapshot).metres();
     let camera = Camera {
         vertical_fov: COVER_FIELD_OF_VIEW,
         ..Camera::right_side(DVec3::new(centre.x, centre.y, MIDDLE))
     };
-    Ok(camera::ray_cast(&mut world.at(snapshot), &camera, COVER).png()?)
+    camera::ray_cast(&mut world.at(snapshot), &camera, COVER)
 }
 
 /// The pictures one below the other.

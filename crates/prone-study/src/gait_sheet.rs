@@ -1,7 +1,7 @@
 //! A gait on one robot, as a table: chain, joints, limits, heights. No physics.
 
 use glam::{DQuat, DVec3};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use prone::chain::ChainAngles;
 use prone::frames::{Ground, Root, Transform};
@@ -66,7 +66,7 @@ pub struct SheetRow {
 }
 
 /// A joint stopped at its limit.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SheetClamp {
     /// The maker's name of the joint.
     pub joint: String,

@@ -16,6 +16,18 @@ const OPTIMAL_COSTS: [f64; 10] = [
 /// Durations of the published study, s.
 pub const DURATIONS_S: [f64; 10] = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0];
 
+/// Table 2: θ3, θ4 and α of the nominal gait at the start and at the end of a pull, degrees.
+pub const NOMINAL_DEG: [[f64; 2]; 3] = [[16.5, 16.5], [27.5, 27.5], [-30.0, -90.0]];
+
+/// Table 3: c₃ to c₀ of θ3, θ4 and α of the optimal gait, rad, as printed: the last one has the wrong
+/// sign.
+#[expect(clippy::approx_constant, reason = "the digits that are printed")]
+pub const OPTIMAL_COEFFICIENTS: [[f64; 4]; 3] = [
+    [0.2365, 0.0893, -0.3267, 0.28798],
+    [1.8796, -0.1365, -1.7434, 0.47997],
+    [-0.2134, 1.1570, -1.9898, 0.52360],
+];
+
 /// Advance of the real robot per crawl cycle in [`TABLE_CRAWLS`], mm.
 pub const ROBOT_ADVANCE_MM: [f64; 2] = [610.0 / 9.0, 1676.4 / 25.0];
 
@@ -41,7 +53,7 @@ pub fn crawl_range(joint: &str) -> Option<(f64, f64)> {
 }
 
 /// A crawl of the real robot under its table.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct TableCrawl {
     /// How many cycles.
     pub cycles: usize,

@@ -4,10 +4,13 @@
 //! right side, averaged over one control step. That is the sign and the averaging of the
 //! published recordings.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The four joints of one side whose torque is recorded, in the order of every array of four.
 pub const JOINTS: [&str; 4] = ["ankle", "knee", "hip", "shoulder"];
+
+/// The points of a planned chain, in the order of [`ChainSample::points_mm`].
+pub const CHAIN_POINTS: [&str; 6] = ["toe", "ankle", "knee", "hip", "shoulder", "elbow"];
 
 /// One closed-chain phase of one gait in simulation.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,7 +54,7 @@ pub struct ChainRecord {
 }
 
 /// One instant of a planned chain.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ChainSample {
     /// Phase, 0 to 1.
     pub s: f64,
@@ -75,7 +78,7 @@ pub struct CostRecord {
 }
 
 /// What else was measured in a pull.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunRecord {
     /// Name of the gait.
     pub gait: String,
@@ -92,7 +95,7 @@ pub struct RunRecord {
 }
 
 /// A joint that a gait asked for more than its limit.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ClampRecord {
     /// Name of the gait.
     pub gait: String,

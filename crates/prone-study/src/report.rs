@@ -1,159 +1,335 @@
-//! The report: one HTML page without external links. It reads records and computes nothing.
+//! The report: result folders as one HTML page that loads nothing, with figures beside it.
+//!
+//! It reads records and computes no physics: drawings are made from tables again, what the engine's
+//! camera saw is shown as it was recorded. `folder` and `cut_table` read, `study`, `crawl_run`,
+//! `search_run` and `drawn_run` know what each command leaves behind; `chapter` lists the figures of
+//! the published chapter, `shown` those that there are; `card` is the report card; `page` and the
+//! `…sections` write.
 
+mod card;
+mod card_sections;
+mod chains;
+mod chapter;
+mod crawl_run;
+mod cut_table;
+mod drawn_run;
+mod error;
+mod folder;
+mod page;
+mod parameter_tables;
+mod picture;
+mod replay;
+mod rivals;
+mod run_sections;
+mod search_run;
 mod sections;
+mod shown;
+mod study;
 
-use base64::Engine as _;
-use base64::engine::general_purpose::STANDARD as BASE64;
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
 
-use crate::figures::Figure;
-use crate::frames::Frames;
-use crate::reproduce::CrawlFigures;
-use crate::run_info::RunInfo;
-use crate::summary::Summary;
+use rayon::prelude::*;
+use serde::Serialize;
 
-const STYLE: &str = include_str!("report/style.css");
+pub use card::{Card, JointCard};
+pub use error::ReportError;
 
-/// How many of a series of sections share a figure: first and last chapter figure number.
-struct Group {
-    title: &'static str,
-    lead: &'static str,
-    numbers: &'static [&'static str],
+use crate::output::{Artefacts, RUN_FILE};
+use crate::reproduce::{PNG_SCALE, json};
+use crate::run_info::Program;
+use crawl_run::{CrawlRun, PullRun};
+use drawn_run::DrawnRun;
+use folder::{Folder, Given};
+use search_run::SearchRun;
+use shown::Shown;
+use study::StudyRun;
+
+/// What a page may weigh, bytes; the replay gives way.
+pub const LARGEST_PAGE: usize = 6_000_000;
+
+/// Name of the page in a result folder.
+pub const PAGE_FILE: &str = "report.html";
+
+/// Name of the page's figures as JSON.
+pub const NUMBERS_FILE: &str = "report.json";
+
+/// A result folder that a report is made of.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Source {
+    /// How it is called in the report.
+    pub name: String,
+    /// Where it is.
+    pub folder: PathBuf,
 }
 
-const GROUPS: [Group; 3] = [
-    Group {
-        title: "The gaits",
-        lead: "What is commanded: three chain angles over the phase, and the closed chain that they make in the sagittal plane. The chain has joint centres only; the body around them has thickness.",
-        numbers: &["25", "26", "34"],
-    },
-    Group {
-        title: "Joint torques",
-        lead: "Joint torque is minus the actuator torque about the joint's axis, right side, averaged over one control step: the sign and averaging of the published recordings. All curves are ours.",
-        numbers: &["36", "37", "38", "39", "40", "41", "42", "43", "44"],
-    },
-    Group {
-        title: "Cost against duration",
-        lead: "Cost is the integral over the phase of the squared joint torques of one side, unweighted. The published axis is labelled N²/m²; the quantity is N²·m²·s.",
-        numbers: &["45"],
-    },
-];
+/// What was read of a folder.
+enum Run {
+    Study(Box<StudyRun>),
+    Crawl(Box<CrawlRun>),
+    Pull(Box<PullRun>),
+    Search(Box<SearchRun>),
+    Drawn(Box<DrawnRun>),
+}
 
-/// Renders the page.
-pub(crate) fn html(
-    info: &RunInfo,
-    summary: &Summary,
-    figures: &[Figure],
-    frames: &[Frames],
-    crawled: Option<&CrawlFigures>,
-) -> String {
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                title { "prone: the Projected Profile crawl, reproduced" }
-                style { (PreEscaped(STYLE)) }
+/// A finished report.
+pub struct Report {
+    /// The page.
+    pub html: String,
+    /// What the page says, for programs.
+    pub numbers: Numbers,
+    shown: Vec<Shown>,
+}
+
+/// What a report says, for programs.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Numbers {
+    /// The folders that were read, those within folders too.
+    pub runs: Vec<RunEntry>,
+    /// Of each crawl.
+    pub cards: Vec<Card>,
+    /// The figures that are there.
+    pub figures: Vec<ShownEntry>,
+    /// Figures of the chapter that are not, and what makes them.
+    pub missing: Vec<MissingEntry>,
+    /// Folders in the replay.
+    pub replayed: Vec<String>,
+    /// What is missing of the records, one sentence each.
+    pub shortfalls: Vec<String>,
+}
+
+/// A folder that was read.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct RunEntry {
+    /// As it was named.
+    pub folder: String,
+    /// What made it.
+    pub command: String,
+    /// From which the program was built that made it.
+    pub commit: String,
+}
+
+/// A figure that is there.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct ShownEntry {
+    /// Of its original in the chapter; empty where there is none.
+    pub number: String,
+    /// Name of its files in `figures/`, without extension.
+    pub stem: String,
+    /// A few words.
+    pub title: String,
+    /// The folders that it comes from.
+    pub runs: Vec<String>,
+}
+
+/// A figure that is not there.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct MissingEntry {
+    /// Of its original in the chapter.
+    pub number: &'static str,
+    /// What it shows.
+    pub shows: &'static str,
+    /// The command that makes it; nothing where that takes a robot.
+    pub command: Option<&'static str>,
+}
+
+impl Numbers {
+    /// How many figures of the chapter have a counterpart.
+    pub fn chapter_figures(&self) -> usize {
+        chapter::places().count() - self.missing.len()
+    }
+}
+
+impl Report {
+    /// Reads result folders and makes the report of them. Drawings are made on the current rayon pool.
+    ///
+    /// # Errors
+    /// [`ReportError`].
+    pub fn of(sources: &[Source]) -> Result<Self, ReportError> {
+        let runs: Vec<Vec<Run>> = sources
+            .par_iter()
+            .map(|source| read(&source.name, &source.folder, Given::Named))
+            .collect::<Result<_, _>>()?;
+        let runs: Vec<Run> = runs.into_iter().flatten().collect();
+        let shown = shown::of(&runs)?;
+        let mut crawls: Vec<&CrawlRun> = runs
+            .iter()
+            .filter_map(|run| match run {
+                Run::Crawl(crawl) => Some(crawl.as_ref()),
+                _ => None,
+            })
+            .collect();
+        // Those that the user named first; stable.
+        crawls.sort_by_key(|crawl| crawl.folder.given == Given::Within);
+        let cards: Vec<Card> = crawls.into_iter().map(Card::of).collect();
+        let page = page::Page {
+            runs: &runs,
+            shown: &shown,
+            cards: &cards,
+            left_out: BTreeSet::new(),
+        };
+        let (html, replayed) = page.html()?;
+        Ok(Self {
+            html,
+            numbers: Numbers {
+                runs: runs.iter().map(Run::entry).collect(),
+                cards,
+                figures: shown.iter().map(entry).collect(),
+                missing: missing(&shown),
+                replayed,
+                shortfalls: runs.iter().flat_map(Run::shortfalls).collect(),
+            },
+            shown,
+        })
+    }
+
+    /// The report of a result that is not published yet: of the files that it will have.
+    ///
+    /// # Errors
+    /// [`ReportError`].
+    pub(crate) fn of_artefacts(name: &str, artefacts: &Artefacts) -> Result<Self, ReportError> {
+        let home = tempfile::tempdir().map_err(ReportError::Temporary)?;
+        for (file, bytes) in artefacts {
+            let path = home.path().join(file);
+            path.parent()
+                .map_or(Ok(()), fs::create_dir_all)
+                .and_then(|()| fs::write(&path, bytes))
+                .map_err(ReportError::Temporary)?;
+        }
+        Self::of(&[Source {
+            name: name.to_owned(),
+            folder: home.path().to_owned(),
+        }])
+    }
+
+    /// Figures as SVG and PNG, in `figures/`.
+    ///
+    /// # Errors
+    /// [`ReportError`] where a drawing has no PNG.
+    pub(crate) fn figures(&self) -> Result<Artefacts, ReportError> {
+        let files = self
+            .shown
+            .par_iter()
+            .map(|shown| shown.files(PNG_SCALE))
+            .collect::<Result<Vec<_>, _>>()?;
+        Ok(files.into_iter().flatten().collect())
+    }
+
+    /// Page, figures as SVG and PNG, `report.json` and `run.json`.
+    ///
+    /// # Errors
+    /// [`ReportError`] where a drawing has no PNG.
+    pub fn files(&self, program: &Program) -> Result<Artefacts, ReportError> {
+        let mut artefacts = self.figures()?;
+        artefacts.insert(PAGE_FILE.to_owned(), self.html.clone().into_bytes());
+        let numbers = json(&self.numbers).map_err(ReportError::Encode)?;
+        artefacts.insert(NUMBERS_FILE.to_owned(), numbers);
+        let info = ReportInfo {
+            program: "prone",
+            built: program.clone(),
+            command: "report",
+            runs: &self.numbers.runs,
+        };
+        let info = json(&info).map_err(ReportError::Encode)?;
+        artefacts.insert(RUN_FILE.to_owned(), info);
+        Ok(artefacts)
+    }
+}
+
+/// What made a report: `run.json`.
+#[derive(Serialize)]
+struct ReportInfo<'a> {
+    program: &'static str,
+    #[serde(flatten)]
+    built: Program,
+    command: &'static str,
+    runs: &'a [RunEntry],
+}
+
+/// A folder, and the records in it.
+fn read(name: &str, path: &Path, given: Given) -> Result<Vec<Run>, ReportError> {
+    let folder = Folder::open(name, path, given)?;
+    let run = match folder.command.as_str() {
+        "reproduce" => {
+            let within = folder.records();
+            let mut runs = vec![Run::Study(Box::new(StudyRun::read(folder)?))];
+            for inner in within {
+                let (name, path) = (format!("{name}/{inner}"), path.join(&inner));
+                runs.extend(read(&name, &path, Given::Within)?);
             }
-            body {
-                header {
-                    h1 { "The Projected Profile crawl, reproduced" }
-                    p.lead {
-                        "Torque study of a low-profile crawl of the " (info.robot.name) ": two gaits of \
-                         the closed chain from toe to elbow, "
-                        (info.options.durations_s.len()) " durations, simulated with contact physics and \
-                         held against the study published in 2015."
-                    }
-                }
-                main {
-                    (sections::results(summary))
-                    (photographs(frames))
-                    (sections::contacts(summary))
-                    @for group in &GROUPS { (figure_group(group, figures)) }
-                    (sections::costs(summary))
-                    (sections::agreement(summary))
-                    (sections::stride(summary))
-                    @if let Some(crawled) = crawled { (under_the_table(summary, crawled)) }
-                    (sections::clamps(summary))
-                    (sections::mappings(summary))
-                    (sections::differences())
-                    (sections::what_was_run(info))
-                }
-                footer {
-                    p {
-                        "prone " (info.built.version) ", commit " (info.built.commit) ", "
-                        (info.engine) ". Tables and figures were computed by the run that wrote this page, \
-                         except what is marked published; the text describes the NAO."
-                    }
-                }
-            }
+            return Ok(runs);
+        }
+        "crawl run" | "reproduce crawl" => Run::Crawl(Box::new(CrawlRun::read(folder)?)),
+        "reproduce pull" => Run::Pull(Box::new(PullRun::read(folder)?)),
+        "optimize" if folder.said("/source").as_deref() == Some("cycle") => {
+            Run::Drawn(Box::new(DrawnRun::cycles(folder)?))
+        }
+        "optimize" => Run::Search(Box::new(SearchRun::read(folder)?)),
+        "crawl frontier" => Run::Drawn(Box::new(DrawnRun::cycles(folder)?)),
+        "torque-map plot" => Run::Drawn(Box::new(DrawnRun::map(folder)?)),
+        other => {
+            return Err(ReportError::OtherCommand {
+                folder: path.to_owned(),
+                found: other.to_owned(),
+            });
         }
     };
-    page.into_string()
+    Ok(vec![run])
 }
 
-fn photographs(frames: &[Frames]) -> Markup {
-    html! {
-        section {
-            h2 { "The simulated robot" }
-            div.pair {
-                @for frames in frames {
-                    @let figure = &frames.figure;
-                    @let data = BASE64.encode(&frames.png);
-                    (captioned(figure, &html! {
-                        img alt=(figure.alt) src={ "data:image/png;base64," (data) };
-                    }))
-                }
-            }
+impl Run {
+    fn folder(&self) -> &Folder {
+        match self {
+            Self::Study(run) => &run.folder,
+            Self::Crawl(run) => &run.folder,
+            Self::Pull(run) => &run.folder,
+            Self::Search(run) => &run.folder,
+            Self::Drawn(run) => &run.folder,
+        }
+    }
+
+    fn entry(&self) -> RunEntry {
+        let folder = self.folder();
+        RunEntry {
+            folder: folder.name.clone(),
+            command: folder.command.clone(),
+            commit: folder.commit.clone(),
+        }
+    }
+
+    /// What is missing of its tables, one sentence each.
+    fn shortfalls(&self) -> Vec<String> {
+        let said = |cuts: &[cut_table::Cut]| cuts.iter().map(ToString::to_string).collect();
+        match self {
+            Self::Study(run) => said(&run.cuts),
+            Self::Search(run) => said(&run.cuts),
+            Self::Crawl(run) => run.notes.clone(),
+            Self::Pull(run) => run.notes.clone(),
+            Self::Drawn(run) => said(&run.cuts),
         }
     }
 }
 
-fn under_the_table(summary: &Summary, crawled: &CrawlFigures) -> Markup {
-    let (frames, angles) = (&crawled.frames.figure, &crawled.angles);
-    html! {
-        section {
-            h2 { "Whole cycles under the table" }
-            (sections::table_crawl(summary))
-            (captioned(frames, &html! {
-                img alt=(frames.alt)
-                    src={ "data:image/png;base64," (BASE64.encode(&crawled.frames.png)) };
-            }))
-            (captioned(angles, &html! {
-                div.drawing role="img" aria-label=(angles.alt) { (PreEscaped(inline(&angles.svg))) }
-            }))
-        }
+fn entry(shown: &Shown) -> ShownEntry {
+    ShownEntry {
+        number: shown.number.clone(),
+        stem: shown.stem.clone(),
+        title: shown.title.clone(),
+        runs: shown.runs.clone(),
     }
 }
 
-fn figure_group(group: &Group, figures: &[Figure]) -> Markup {
-    html! {
-        section {
-            h2 { (group.title) }
-            p { (group.lead) }
-            @for figure in figures.iter().filter(|figure| group.numbers.contains(&figure.number)) {
-                (captioned(figure, &html! {
-                    div.drawing role="img" aria-label=(figure.alt) { (PreEscaped(inline(&figure.svg))) }
-                }))
-            }
-        }
-    }
-}
-
-fn captioned(figure: &Figure, picture: &Markup) -> Markup {
-    html! {
-        figure id={ (figure.stem) } {
-            (picture)
-            figcaption {
-                strong { "Figure " (figure.number) ". " (figure.title) ". " }
-                (figure.caption)
-            }
-        }
-    }
-}
-
-/// An SVG document as a part of a page: without its XML declaration.
-fn inline(svg: &str) -> &str {
-    svg.find("<svg").map_or(svg, |start| &svg[start..])
+fn missing(shown: &[Shown]) -> Vec<MissingEntry> {
+    let places =
+        chapter::places().filter(|place| shown.iter().all(|shown| shown.number != place.number));
+    let missing = places.map(|place| MissingEntry {
+        number: place.number,
+        shows: place.shows,
+        command: match place.made_by {
+            chapter::MadeBy::Command(command) => Some(command),
+            chapter::MadeBy::Robot => None,
+        },
+    });
+    missing.collect()
 }

@@ -9,15 +9,16 @@ use prone_sim::{LoadedRobot, Regime, World, WorldError};
 
 use crate::crawl::pull::PullRecording;
 use crate::crawl::record::{RecordError, Recording};
-use crate::figures::{self, Figure, FigureError};
-use crate::frames::{Frames, FramesError};
+use crate::figure_list::FigureList;
+use crate::frames::FramesError;
 use crate::output::{Artefacts, RUN_FILE};
 use crate::recorded::Command;
+use crate::report::{PAGE_FILE, Report, ReportError};
 use crate::run_info::{Program, RunInfo};
 use crate::summary::{self, Summary};
 use crate::table_crawl::{self, TableError, TableResult, TableStudy};
 use crate::torque_study::{self, Observer, Plan, StudyError, TorqueStudy};
-use crate::{agreement, contact_story, crawl, frames, published, report, tables};
+use crate::{agreement, contact_story, crawl, frames, published, tables};
 
 /// A finished reproduction.
 #[derive(Debug)]
@@ -39,9 +40,6 @@ pub enum ReproduceError {
     /// The study has no result.
     #[error(transparent)]
     Study(#[from] StudyError),
-    /// A figure cannot be drawn.
-    #[error(transparent)]
-    Figure(#[from] FigureError),
     /// The crawl under the table has no result.
     #[error(transparent)]
     Table(#[from] TableError),
@@ -51,19 +49,22 @@ pub enum ReproduceError {
     /// A record has no files.
     #[error(transparent)]
     Record(#[from] RecordError),
-    /// There is nothing to draw.
-    #[error("the crawl under the table has no rows")]
-    NoRows,
     /// A table cannot be written or read.
     #[error("table: {0}")]
     Csv(#[from] csv::Error),
     /// A JSON file cannot be written.
     #[error("JSON: {0}")]
     Json(#[from] serde_json::Error),
+    /// The report of what was made cannot be written.
+    #[error("report: {0}")]
+    Report(#[from] ReportError),
 }
 
 /// Pixels per unit of an SVG figure in its PNG.
 pub(crate) const PNG_SCALE: f32 = 2.0;
+
+/// How the report of a reproduction calls its own folder.
+const OWN_NAME: &str = "this folder";
 
 /// What is reproduced.
 #[derive(Debug, Clone, Copy)]
@@ -118,6 +119,7 @@ pub fn run(
         let name = format!("torques/{}", tables::torque_file_name(pull));
         artefacts.insert(name, tables::torques(pull)?);
     }
+    artefacts.insert("chains.csv".into(), tables::chains(&study.chains)?);
     artefacts.insert("costs.csv".into(), tables::costs(&study.costs)?);
     artefacts.insert(
         "agreement.csv".into(),
@@ -130,35 +132,38 @@ pub fn run(
         artefacts.extend(crawl_record(robot, table, result, program)?);
     }
 
-    let drawn = figures::study_figures(&study.chains, &study.pulls, &study.costs)?;
     let photographed = study
         .shown
         .par_iter()
         .map(|(gait, pull)| frames::of(&world, &gait.name, study.showcase_s, &pull.snapshots))
         .collect::<Result<Vec<_>, _>>()?;
-    if let Some((_, pull)) = study.shown.first()
+    let mut list = FigureList::default();
+    if let Some((gait, pull)) = study.shown.first()
+        && let Some(first) = pull.snapshots.first()
         && let Some(middle) = pull.snapshots.get(pull.snapshots.len() / 2)
     {
+        let start = frames::start(&world, &gait.name, &info.options.start_posture, first)?;
+        list.picture(&mut artefacts, start.figure, start.png);
         artefacts.insert("figures/crawl.png".into(), frames::cover(&world, middle)?);
     }
-    let pngs = drawn
-        .par_iter()
-        .map(|figure| figure.png(PNG_SCALE))
-        .collect::<Result<Vec<_>, _>>()?;
-    let crawled = table_result.as_ref().map(pictures).transpose()?;
-    let html = report::html(&info, &summary, &drawn, &photographed, crawled.as_ref());
-    artefacts.insert("report.html".into(), html.into_bytes());
-    for (figure, png) in drawn.into_iter().zip(pngs) {
-        insert_figure(&mut artefacts, figure, png);
-    }
     for frames in photographed {
-        insert_figure(&mut artefacts, frames.figure, frames.png);
+        list.picture(&mut artefacts, frames.figure, frames.png);
     }
-    if let Some(crawled) = crawled {
-        insert_figure(&mut artefacts, crawled.frames.figure, crawled.frames.png);
-        let png = crawled.angles.png(PNG_SCALE)?;
-        insert_figure(&mut artefacts, crawled.angles, png);
+    if let Some(result) = &table_result {
+        let (world, longest) = (&result.world, &result.longest);
+        let gait = longest
+            .cycles
+            .first()
+            .map_or("", |cycle| cycle.gait.as_str());
+        for frames in crawl::frames::on_its_way(world, gait, longest)? {
+            list.picture(&mut artefacts, frames.figure, frames.png);
+        }
     }
+    list.finish(&mut artefacts)?;
+    // The drawings are those of the report, made from the records as they will be read again.
+    let report = Report::of_artefacts(OWN_NAME, &artefacts)?;
+    artefacts.extend(report.figures()?);
+    artefacts.insert(PAGE_FILE.into(), report.html.into_bytes());
     let crawling = table_result.map_or(0, |result| result.engine_steps);
     Ok(Reproduction {
         artefacts,
@@ -221,34 +226,6 @@ fn below(folder: &str, files: Artefacts) -> Artefacts {
     named
         .map(|(name, bytes)| (format!("{folder}/{name}"), bytes))
         .collect()
-}
-
-/// Figures of the crawl under the table.
-pub(crate) struct CrawlFigures {
-    pub(crate) frames: Frames,
-    pub(crate) angles: Figure,
-}
-
-fn pictures(result: &TableResult) -> Result<CrawlFigures, ReproduceError> {
-    let (world, longest) = (&result.world, &result.longest);
-    let gait = longest
-        .cycles
-        .first()
-        .map_or("", |cycle| cycle.gait.as_str());
-    let frames = crawl::frames::sequence(world, gait, longest)?;
-    let angles = figures::crawl_angles(world.robot(), gait, longest)?;
-    frames
-        .zip(angles)
-        .map(|(frames, angles)| CrawlFigures { frames, angles })
-        .ok_or(ReproduceError::NoRows)
-}
-
-pub(crate) fn insert_figure(artefacts: &mut Artefacts, figure: Figure, png: Vec<u8>) {
-    artefacts.insert(format!("figures/{}.png", figure.stem), png);
-    artefacts.insert(
-        format!("figures/{}.svg", figure.stem),
-        figure.svg.into_bytes(),
-    );
 }
 
 pub(crate) fn json(value: &impl Serialize) -> Result<Vec<u8>, serde_json::Error> {

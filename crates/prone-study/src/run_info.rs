@@ -1,47 +1,67 @@
 //! What was run: `run.json`, and the last section of the report.
 
-use serde::Serialize;
+use std::borrow::Cow;
+
+use serde::{Deserialize, Serialize};
 
 use prone_sim::regime::{CONTROL_STEP, Effort, SERVO_RATE, SOLIMP, SOLREF, Stops, TIME_STEP};
 use prone_sim::{LoadedRobot, Regime, World};
 
+use crate::curves_info::CurvesInfo;
 use crate::table_crawl::TableStudy;
 use crate::torque_study::Plan;
 
 /// Which program made a result.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Program {
     /// Its version.
-    pub version: &'static str,
+    pub version: Cow<'static, str>,
     /// The commit it was built from, `unknown` outside a checkout.
-    pub commit: &'static str,
+    pub commit: Cow<'static, str>,
 }
 
 /// What was run, for `run.json` and the report.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct RunInfo {
-    pub(crate) program: &'static str,
+    pub(crate) program: Cow<'static, str>,
     #[serde(flatten)]
     pub(crate) built: Program,
-    pub(crate) command: &'static str,
+    pub(crate) command: Cow<'static, str>,
     pub(crate) engine: String,
     pub(crate) robot: RobotInfo,
     pub(crate) options: Options,
 }
 
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct RobotInfo {
     pub(crate) name: String,
     pub(crate) folder: String,
     pub(crate) sha256: String,
+    /// How high it stands, mm, where its maker says so.
+    pub(crate) standing_height_mm: Option<f64>,
 }
 
-#[derive(Debug, Clone, Serialize)]
+impl RobotInfo {
+    pub(crate) fn of(robot: &LoadedRobot) -> Self {
+        Self {
+            name: robot.robot().name.clone(),
+            folder: robot.files().folder.clone(),
+            sha256: robot.files().hash(),
+            // The digits of robot.toml, which metres do not keep.
+            standing_height_mm: robot
+                .robot()
+                .standing_height
+                .map(|metres| (metres * 1e9).round() / 1e6),
+        }
+    }
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct Options {
     pub(crate) gaits: Vec<GaitInfo>,
     pub(crate) durations_s: Vec<f64>,
     pub(crate) showcase_s: f64,
-    pub(crate) regime: &'static str,
+    pub(crate) regime: Cow<'static, str>,
     pub(crate) friction: f64,
     pub(crate) impratio: f64,
     pub(crate) effort_limit: String,
@@ -58,12 +78,12 @@ pub(crate) struct Options {
     pub(crate) table: Option<TableInfo>,
 }
 
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct TableInfo {
     pub(crate) gait: String,
     pub(crate) description: String,
     pub(crate) scene: String,
-    pub(crate) regime: &'static str,
+    pub(crate) regime: Cow<'static, str>,
     pub(crate) friction: f64,
     pub(crate) impratio: f64,
 }
@@ -74,19 +94,21 @@ impl TableInfo {
             gait: study.gait.cycle.pull.name.clone(),
             description: study.gait.cycle.pull.description.clone(),
             scene: study.scene.name.clone(),
-            regime: Regime::LOCOMOTION.name,
+            regime: Regime::LOCOMOTION.name.into(),
             friction: Regime::LOCOMOTION.friction,
             impratio: Regime::LOCOMOTION.impratio,
         }
     }
 }
 
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct GaitInfo {
     pub(crate) name: String,
     pub(crate) description: String,
-    pub(crate) mapping: &'static str,
-    pub(crate) arm: &'static str,
+    pub(crate) mapping: Cow<'static, str>,
+    pub(crate) arm: Cow<'static, str>,
+    /// θ3, θ4 and α over the phase.
+    pub(crate) curves: CurvesInfo,
 }
 
 impl RunInfo {
@@ -104,15 +126,11 @@ impl RunInfo {
             format!("{name} {} to {} rad", range.lower, range.upper)
         });
         Self {
-            program: "prone",
+            program: "prone".into(),
             built: program.clone(),
-            command: "reproduce",
+            command: "reproduce".into(),
             engine: prone_sim::engine_version(),
-            robot: RobotInfo {
-                name: robot.robot().name.clone(),
-                folder: robot.files().folder.clone(),
-                sha256: robot.files().hash(),
-            },
+            robot: RobotInfo::of(robot),
             options: Options {
                 gaits: plan
                     .gaits()
@@ -120,13 +138,14 @@ impl RunInfo {
                     .map(|gait| GaitInfo {
                         name: gait.name.clone(),
                         description: gait.description.clone(),
-                        mapping: gait.mapping.name(),
-                        arm: gait.arm.name(),
+                        mapping: gait.mapping.name().into(),
+                        arm: gait.arm.name().into(),
+                        curves: CurvesInfo::of(gait),
                     })
                     .collect(),
                 durations_s: plan.durations_s(),
                 showcase_s: plan.showcase_s(),
-                regime: regime.name,
+                regime: regime.name.into(),
                 friction: regime.friction,
                 impratio: regime.impratio,
                 effort_limit: match regime.effort {

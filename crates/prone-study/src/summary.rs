@@ -1,6 +1,8 @@
 //! The study in figures: `summary.json`.
 
-use serde::Serialize;
+use std::borrow::Cow;
+
+use serde::{Deserialize, Serialize};
 
 use crate::agreement::Agreement;
 use crate::contact_story::ContactStory;
@@ -10,7 +12,7 @@ use crate::table_crawl::TableExperiment;
 use crate::torque_study::TorqueStudy;
 
 /// Everything that the report's tables show.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
     /// Cost of each pull, ours beside the published one.
     pub costs: Vec<CostRow>,
@@ -35,7 +37,7 @@ pub struct Summary {
 }
 
 /// A cost beside the published one.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CostRow {
     /// Name of the gait.
     pub gait: String,
@@ -50,7 +52,7 @@ pub struct CostRow {
 }
 
 /// The gain of the optimal gait.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RatioRow {
     /// Duration of the phase, s.
     pub duration_s: f64,
@@ -61,7 +63,7 @@ pub struct RatioRow {
 }
 
 /// How far the body is carried.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Stride {
     /// Advance of the shoulder in the planned chain, mm, by gait.
     pub chain_mm: Vec<(String, f64)>,
@@ -70,7 +72,7 @@ pub struct Stride {
 }
 
 /// The ankle's highest point in a planned chain.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct AnklePeak {
     /// Name of the gait.
     pub gait: String,
@@ -79,11 +81,11 @@ pub struct AnklePeak {
     /// Where in the phase, percent.
     pub at_percent: f64,
     /// The published height, mm, as its text words it; printed for the nominal gait only.
-    pub published_mm: Option<&'static str>,
+    pub published_mm: Option<Cow<'static, str>>,
 }
 
 /// The same gait under both mappings.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MappingRow {
     /// Name of the gait.
     pub gait: String,
@@ -173,7 +175,7 @@ fn ankle_peak(chain: &ChainRecord) -> Option<AnklePeak> {
         gait: chain.gait.clone(),
         height_mm: height(&peak),
         at_percent: peak.s * 100.0,
-        published_mm: (chain.gait == "nominal").then_some(published::ANKLE_PEAK_MM),
+        published_mm: (chain.gait == "nominal").then_some(published::ANKLE_PEAK_MM.into()),
     })
 }
 

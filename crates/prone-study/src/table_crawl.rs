@@ -1,6 +1,8 @@
 //! The two experiments of the original under its table, crawled again in simulation.
 
-use serde::Serialize;
+use std::borrow::Cow;
+
+use serde::{Deserialize, Serialize};
 
 use prone::gait::cycle::{CycleError, TimeScale};
 use prone::scene::Scene;
@@ -33,18 +35,18 @@ pub struct TableStudy {
 }
 
 /// One experiment, ours beside the published one.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TableExperiment {
     /// From 1.
     pub experiment: usize,
     /// What was published.
     pub published: TableCrawl,
     /// How that was obtained.
-    pub published_obtained: &'static str,
+    pub published_obtained: Cow<'static, str>,
     /// What our simulation does.
     pub ours: CrawlSummary,
     /// How that was obtained.
-    pub ours_obtained: &'static str,
+    pub ours_obtained: Cow<'static, str>,
 }
 
 /// Both experiments.
@@ -124,9 +126,9 @@ fn experiment(
     let experiment = TableExperiment {
         experiment: number,
         published,
-        published_obtained: PUBLISHED_BY,
+        published_obtained: PUBLISHED_BY.into(),
         ours,
-        ours_obtained: OURS_BY,
+        ours_obtained: OURS_BY.into(),
     };
     Ok((experiment, crawl))
 }

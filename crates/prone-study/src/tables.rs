@@ -1,10 +1,10 @@
 //! Records as CSV.
 
 use crate::agreement::Agreement;
-use crate::record::{CostRecord, JOINTS, PullRecord};
+use crate::record::{CHAIN_POINTS, ChainRecord, CostRecord, JOINTS, PullRecord};
 
 /// Columns of commanded and measured angles after the four pitch joints.
-const ARM_JOINTS: [&str; 3] = ["shoulder_roll", "forearm_upper", "forearm_lower"];
+pub(crate) const ARM_JOINTS: [&str; 3] = ["shoulder_roll", "forearm_upper", "forearm_lower"];
 
 /// `torques/<gait>-<TT.T>s.csv`.
 pub(crate) fn torque_file_name(pull: &PullRecord) -> String {
@@ -49,6 +49,31 @@ pub(crate) fn torques(pull: &PullRecord) -> Result<Vec<u8>, csv::Error> {
     finish(table)
 }
 
+/// `chains.csv`: the planned chain of each gait, one row per instant.
+///
+/// # Errors
+/// [`csv::Error`], which writing to memory does not produce.
+pub fn chains(chains: &[ChainRecord]) -> Result<Vec<u8>, csv::Error> {
+    let mut table = csv::Writer::from_writer(Vec::new());
+    let mut header: Vec<String> = ["gait", "s", "theta3_deg", "theta4_deg", "alpha_deg"]
+        .map(Into::into)
+        .to_vec();
+    for point in CHAIN_POINTS {
+        header.extend([format!("{point}_x_mm"), format!("{point}_z_mm")]);
+    }
+    table.write_record(&header)?;
+    for chain in chains {
+        for sample in &chain.samples {
+            let mut cells = vec![chain.gait.clone(), number(sample.s, 4)];
+            cells.extend(sample.parameters_deg.map(|angle| number(angle, 5)));
+            let points = sample.points_mm.iter().flat_map(|&(x, z)| [x, z]);
+            cells.extend(points.map(|length| number(length, 4)));
+            table.write_record(&cells)?;
+        }
+    }
+    finish(table)
+}
+
 /// `costs.csv`.
 ///
 /// # Errors
@@ -79,7 +104,7 @@ pub(crate) fn agreement(agreement: &[Agreement]) -> Result<Vec<u8>, csv::Error> 
         table.write_record([
             row.gait.clone(),
             row.duration_s.to_string(),
-            row.joint.to_owned(),
+            row.joint.to_string(),
             number(row.rms_nm, 6),
             row.correlation
                 .map_or_else(String::new, |value| number(value, 6)),
@@ -97,6 +122,12 @@ pub(crate) fn number(value: f64, decimals: usize) -> String {
     }
 }
 
+/// A value as it is read again from a table that has it with so many decimals: what is drawn of it is
+/// then the same before and after.
+pub(crate) fn as_written(value: f64, decimals: usize) -> f64 {
+    number(value, decimals).parse().unwrap_or(value)
+}
+
 pub(crate) fn finish(table: csv::Writer<Vec<u8>>) -> Result<Vec<u8>, csv::Error> {
     table
         .into_inner()
@@ -112,5 +143,7 @@ mod tests {
         assert_eq!(number(-0.000_000_1, 3), "0.000");
         assert_eq!(number(-0.5, 3), "-0.500");
         assert_eq!(number(0.150_000_000_000_000_02, 3), "0.150");
+        assert!(as_written(-0.000_000_1, 3).total_cmp(&0.0).is_eq());
+        assert!(as_written(f64::INFINITY, 3).is_infinite());
     }
 }

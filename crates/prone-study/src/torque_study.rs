@@ -182,6 +182,18 @@ fn jobs(plan: &Plan) -> Vec<Job> {
     jobs
 }
 
+/// The planned chain of a gait.
+///
+/// # Errors
+/// [`TrajectoryError`] where the robot cannot follow the gait.
+pub fn chain(
+    world: &World,
+    gait: &Gait,
+    duration: PhaseDuration,
+) -> Result<ChainRecord, TrajectoryError> {
+    plan_chain(world, gait, duration).map(|trajectory| chain_record(gait, &trajectory))
+}
+
 fn plan_chain(
     world: &World,
     gait: &Gait,

@@ -49,7 +49,7 @@ fn reference_torques_follow_the_recordings() {
         "two gaits, four durations, four joints"
     );
     for row in agreement {
-        let (rms, correlation) = limits(&row.gait, row.joint);
+        let (rms, correlation) = limits(&row.gait, &row.joint);
         assert!(row.rms_nm <= rms, "{row:?}");
         if let Some(least) = correlation {
             assert!(

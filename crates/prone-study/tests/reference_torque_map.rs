@@ -52,8 +52,8 @@ fn built(source: Source, step_deg: f64, theta4_max_deg: f64) -> RecordedMap {
     let robot = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
     let grid = NodeGrid::new(step_deg, theta4_max_deg).unwrap();
     let program = Program {
-        version: "0.0.0",
-        commit: "test",
+        version: "0.0.0".into(),
+        commit: "test".into(),
     };
     let job = Job::new(&robot, source, grid, &program).unwrap();
     let home = tempfile::tempdir().unwrap();

@@ -37,6 +37,8 @@ pub struct JointId(pub usize);
 pub struct Robot {
     /// The maker's name of the model.
     pub name: String,
+    /// How high it stands, m, where the maker says so: what heights and speeds are compared by.
+    pub standing_height: Option<f64>,
     /// Parents before children; the first one floats freely.
     pub bodies: Vec<Body>,
     /// Hinges in the model's order.
@@ -106,6 +108,24 @@ pub struct Motor {
     pub nominal: f64,
     /// Stall torque, N·m.
     pub stall: f64,
+    /// Speed without load, rad/s, where it is known.
+    pub no_load_speed: Option<f64>,
+}
+
+impl Motor {
+    /// What the winding turns into heat per squared torque, W/(N·m)², where the speed without load
+    /// is known.
+    ///
+    /// A direct-current motor with constant k, resistance R and supply U has
+    ///
+    /// 1. no-load speed ω₀ = U / k
+    /// 2. stall torque τₛ = k U / R
+    /// 3. loss R I² = R (τ / k)² = τ² ω₀ / τₛ
+    ///
+    /// whatever the supply. Friction in motor and gear, and what iron and drive lose, are left out.
+    pub fn winding_loss(&self) -> Option<f64> {
+        self.no_load_speed.map(|speed| speed / self.stall)
+    }
 }
 
 /// A closed interval of joint angles, rad.

@@ -3,6 +3,7 @@
 use prone::gait::cycle::Cycle;
 use prone_files::cycle_file;
 use prone_study::cycle_search::record::{self, Found, Frontier};
+use prone_study::figure_list::FigureList;
 use prone_study::optimize::search::Search;
 use prone_study::output::Artefacts;
 
@@ -37,14 +38,12 @@ pub(super) fn artefacts(
         let text = cycle_file::write(&cycle, &header(&cycle, &frontier.found[best]));
         artefacts.insert("gait.toml".into(), text.into_bytes());
     }
+    let mut list = FigureList::default();
     if let Some(figure) = record::figure(frontier) {
         let png = figure.png(PNG_SCALE).map_err(Failure::work)?;
-        artefacts.insert(format!("figures/{}.png", figure.stem), png);
-        artefacts.insert(
-            format!("figures/{}.svg", figure.stem),
-            figure.svg.into_bytes(),
-        );
+        list.drawing(&mut artefacts, "figures/", figure, png);
     }
+    list.finish(&mut artefacts).map_err(Failure::work)?;
     Ok(artefacts)
 }
 

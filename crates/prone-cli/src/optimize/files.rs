@@ -2,13 +2,16 @@
 
 use prone::gait::{CheckedTrajectory, Gait};
 use prone_files::gait_file;
-use prone_study::figures::{Scores, search_figures};
+use prone_study::figure_list::FigureList;
+use prone_study::figures::{self, ConfirmedRecord, Scores, SearchRecord};
 use prone_study::optimize::confirm::{self, Confirmation};
 use prone_study::optimize::outcome::{self, Outcome};
 use prone_study::optimize::pricer::Aim;
 use prone_study::optimize::rules::INTERVALS;
 use prone_study::optimize::search::Search;
 use prone_study::output::Artefacts;
+use prone_study::record::ChainRecord;
+use prone_study::{tables, torque_study};
 
 use super::report::sentence;
 use crate::Failure;
@@ -21,6 +24,7 @@ const PNG_SCALE: f32 = 2.0;
 pub(super) fn artefacts(
     search: &Search,
     gait: &Gait,
+    others: &[Gait],
     outcome: &Outcome,
     confirmation: &Confirmation,
     pricing: &Pricing,
@@ -40,17 +44,31 @@ pub(super) fn artefacts(
         Aim::Published(_) => Scores::Published,
         Aim::Graded(_) => Scores::Graded,
     };
-    let figures = search_figures(search, confirmation, &pricing.objective(), scores)
-        .map_err(Failure::work)?;
-    for figure in figures {
+    let objective = pricing.objective();
+    let history = SearchRecord::of(search, &objective, scores);
+    let history = history.map(|history| figures::generations(&history));
+    let rows = ConfirmedRecord::of(confirmation);
+    let drawn = [
+        history.transpose().map_err(Failure::work)?.flatten(),
+        figures::confirmation(&rows, objective.name()).map_err(Failure::work)?,
+    ];
+    let mut list = FigureList::default();
+    for figure in drawn.into_iter().flatten() {
         let png = figure.png(PNG_SCALE).map_err(Failure::work)?;
-        artefacts.insert(format!("figures/{}.png", figure.stem), png);
-        artefacts.insert(
-            format!("figures/{}.svg", figure.stem),
-            figure.svg.into_bytes(),
-        );
+        list.drawing(&mut artefacts, "figures/", figure, png);
     }
+    list.finish(&mut artefacts).map_err(Failure::work)?;
+    let chains = tables::chains(&chains(gait, others, pricing)).map_err(Failure::work)?;
+    artefacts.insert("chains.csv".into(), chains);
     Ok(artefacts)
+}
+
+/// The planned chains, the found gait's last. One that cannot be planned was refused by the
+/// confirmation too, which says why.
+fn chains(gait: &Gait, others: &[Gait], pricing: &Pricing) -> Vec<ChainRecord> {
+    let gaits = others.iter().chain([gait]);
+    let chains = gaits.map(|gait| torque_study::chain(&pricing.world, gait, pricing.duration));
+    chains.filter_map(Result::ok).collect()
 }
 
 /// How the gait was found and what it does, for whoever reads its file.

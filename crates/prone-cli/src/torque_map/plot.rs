@@ -5,6 +5,7 @@ use std::io::Write as _;
 use anyhow::anyhow;
 
 use prone::torque_map::{comments, parse};
+use prone_study::figure_list::FIGURES_FILE;
 use prone_study::output;
 use prone_study::torque_map::plot::{self, MapFile};
 
@@ -27,7 +28,11 @@ pub(super) fn run(args: &PlotArgs) -> Result<(), Failure> {
         plot::artefacts(&map, &slices, &file, &super::program()).map_err(Failure::work)?;
     interrupt::publish(|| output::publish(&args.out, &artefacts).map_err(Failure::work))?;
     let mut out = std::io::stdout().lock();
-    for file in artefacts.keys().filter(|file| *file != output::RUN_FILE) {
+    let described = [output::RUN_FILE, FIGURES_FILE];
+    for file in artefacts
+        .keys()
+        .filter(|file| !described.contains(&file.as_str()))
+    {
         writeln!(out, "{}", args.out.join(file).display())?;
     }
     Ok(())

@@ -27,6 +27,8 @@ pub(super) const ACCELERATION: f64 = 100.0;
 pub(super) const TURN_RATE: f64 = 10.0;
 /// Largest torque of a motor at its shaft, N·m.
 pub(super) const SHAFT_TORQUE: f64 = 1e3;
+/// Largest speed of a motor's shaft, turns per minute.
+pub(super) const SHAFT_SPEED: f64 = 1e6;
 
 /// Checks lengths, masses and inertias of a compiled model.
 pub(super) fn check(model: &MjModel) -> Result<(), ModelProblem> {

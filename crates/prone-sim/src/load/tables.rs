@@ -1,6 +1,7 @@
 //! Joins `robot.toml` with the parts of the model; every name is looked up.
 
 use std::collections::BTreeMap;
+use std::f64::consts::TAU;
 use std::fmt::Display;
 
 use glam::DVec3;
@@ -39,8 +40,15 @@ impl Tables<'_> {
             None => None,
             Some(imu) => Some(imu::read(self, imu, &parts)?),
         };
+        let height = table.standing_height_mm.map(|height_mm| {
+            let largest = bounds::LENGTH * 1e3;
+            let height_mm =
+                self.positive(&table.model, "standing_height_mm", height_mm, largest)?;
+            Ok::<_, FileError>(height_mm * 1e-3)
+        });
         let mut robot = Robot {
             name: table.name,
+            standing_height: height.transpose()?,
             bodies: parts.bodies,
             joints: parts.joints,
             shapes: parts.shapes,
@@ -245,6 +253,13 @@ impl Tables<'_> {
             ratio,
             nominal: at_joint("nominal_mnm", motor.nominal_mnm)?,
             stall: at_joint("stall_mnm", motor.stall_mnm)?,
+            no_load_speed: match motor.no_load_rpm {
+                None => None,
+                Some(rpm) => {
+                    let rpm = self.positive(name, "no_load_rpm", rpm, bounds::SHAFT_SPEED)?;
+                    Some(rpm * TAU / 60.0 / ratio)
+                }
+            },
         }))
     }
 

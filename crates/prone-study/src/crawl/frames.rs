@@ -1,11 +1,13 @@
-//! Figure 28: the robot before, under and past what it crawls under, one instant below the other.
+//! Figures 22, 23 and 28: the robot before its first pull, under what it crawls under, and on its way
+//! from before to past that, one instant below the other.
 
 use glam::DVec3;
 use rayon::prelude::*;
 
-use prone_sim::World;
+use prone::scene::ObstacleKind;
 use prone_sim::camera::{self, Camera, Picture};
-use prone_sim::crawl::Crawl;
+use prone_sim::crawl::{Crawl, Row};
+use prone_sim::{Snapshot, World};
 
 use crate::frames::{Frames, FramesError, Wording, stacked};
 
@@ -25,6 +27,19 @@ const HEIGHT: f64 = 0.5;
 /// Height of the point in the middle of a frame, m.
 const MIDDLE: f64 = 0.16;
 
+/// One robot: pixels, width shown, m, and height of the point in the middle, m.
+const SIZE_CLOSE: (usize, usize) = (960, 420);
+const WIDTH_CLOSE: f64 = 1.12;
+const MIDDLE_CLOSE: f64 = 0.1;
+/// Where the camera stands, seen from the robot: low enough to see under a plate, and so that the leg of
+/// a table, which is at the robot's hands at the start and at its trunk when it is below the panel, does
+/// not hide it.
+const FROM_BEHIND: DVec3 = DVec3::new(-0.5, -1.0, 0.25);
+const FROM_AHEAD: DVec3 = DVec3::new(0.8, -1.0, 0.22);
+
+/// How near to an obstacle's middle the root must come to be under it, m: less than a cycle.
+const NEAR: f64 = 0.1;
+
 /// How far away the camera stands, in widths of what it shows: far, so that it sees all parts of
 /// the way from nearly the same side.
 const DISTANCE: f64 = 2.5;
@@ -33,13 +48,109 @@ const DISTANCE: f64 = 2.5;
 /// under the plate.
 const RISE: f64 = 0.13;
 
-/// Takes the pictures from the robot's right with a camera that stays where it is; nothing without
-/// rows.
-pub(crate) fn sequence(
+/// All pictures of a crawl with rows.
+pub(crate) fn all(world: &World, gait: &str, crawl: &Crawl) -> Result<Vec<Frames>, FramesError> {
+    let mut pictures: Vec<Frames> = start(world, gait, crawl)?.into_iter().collect();
+    pictures.extend(on_its_way(world, gait, crawl)?);
+    Ok(pictures)
+}
+
+/// The pictures of a crawl with rows but that of its start.
+pub(crate) fn on_its_way(
     world: &World,
     gait: &str,
     crawl: &Crawl,
-) -> Result<Option<Frames>, FramesError> {
+) -> Result<Vec<Frames>, FramesError> {
+    let pictures = [under(world, gait, crawl)?, sequence(world, gait, crawl)?];
+    Ok(pictures.into_iter().flatten().collect())
+}
+
+/// Figure 22: the first row.
+fn start(world: &World, gait: &str, crawl: &Crawl) -> Result<Option<Frames>, FramesError> {
+    let Some((first, snapshot)) = crawl.rows.first().zip(crawl.snapshots.first()) else {
+        return Ok(None);
+    };
+    let wording = Wording {
+        stem: format!("fig-22-{gait}-start"),
+        number: "22",
+        title: format!("The simulated robot at the start, {gait}"),
+        caption: format!(
+            "The robot {:.2} s into its first pull with {gait}, ray cast from our simulation: toes \
+             and elbows are planted, the arms reach forward. Lines on the floor are 100 mm apart, \
+             heavy ones 500 mm.",
+            first.time
+        ),
+        alt:
+            "The simulated robot from its right and behind, prone, toes and forearms on the floor."
+                .to_owned(),
+    };
+    let picture = close(world, first, snapshot, FROM_BEHIND);
+    Ok(Some(stacked(&[picture], &[String::new()], wording)?))
+}
+
+/// Figure 23: the row nearest to the middle of the first panel or, without one, plate; nothing
+/// where the robot never gets there.
+fn under(world: &World, gait: &str, crawl: &Crawl) -> Result<Option<Frames>, FramesError> {
+    let of_kind = |kind| {
+        world
+            .obstacles()
+            .iter()
+            .find(|obstacle| obstacle.kind == kind)
+    };
+    let obstacle = of_kind(ObstacleKind::Panel).or_else(|| of_kind(ObstacleKind::Plate));
+    let Some(obstacle) = obstacle else {
+        return Ok(None);
+    };
+    let middle = obstacle.ground_from_box.origin().metres();
+    let away = |row: &Row| (row.ground_from_root.origin().x() - middle.x).abs();
+    let rows = crawl.rows.iter().zip(&crawl.snapshots);
+    let nearest = rows.min_by(|a, b| away(a.0).total_cmp(&away(b.0)));
+    let Some((row, snapshot)) = nearest.filter(|(row, _)| away(row) <= NEAR) else {
+        return Ok(None);
+    };
+    let ceiling_mm = (middle.z - obstacle.half_edges.z) * 1e3;
+    let tops = row.tops.0.iter().map(|top| top * 1e3);
+    let top_mm = tops.fold(f64::NEG_INFINITY, f64::max);
+    let kind = obstacle.kind.name();
+    let wording = Wording {
+        stem: format!("fig-23-{gait}-under"),
+        number: "23",
+        title: format!("The simulated robot under the {kind}, {gait}"),
+        caption: format!(
+            "The robot {:.1} s into its crawl with {gait}, ray cast from our simulation, at the {kind} \
+             whose lower edge is {ceiling_mm:.0} mm above the floor; at this instant its highest \
+             point is at {top_mm:.0} mm. Plates and panels are drawn as glass.",
+            row.time
+        ),
+        alt: format!(
+            "The simulated robot from its right and ahead, prone below the {kind}, whose lower edge is \
+             {ceiling_mm:.0} millimetres above the floor."
+        ),
+    };
+    let picture = close(world, row, snapshot, FROM_AHEAD);
+    Ok(Some(stacked(&[picture], &[String::new()], wording)?))
+}
+
+/// One robot, from its right and low.
+fn close(world: &World, row: &Row, snapshot: &Snapshot, from: DVec3) -> Picture {
+    let root = row.ground_from_root.origin().metres();
+    let target = DVec3::new(root.x, root.y, MIDDLE_CLOSE);
+    let distance = DISTANCE * WIDTH_CLOSE;
+    let (width, height) = SIZE_CLOSE;
+    let shown = WIDTH_CLOSE * height as f64 / width as f64;
+    let camera = Camera {
+        position: target + distance * from.normalize(),
+        target,
+        vertical_fov: 2.0 * (shown / 2.0 / distance).atan(),
+        up: DVec3::Z,
+        inside: None,
+    };
+    camera::ray_cast(&mut world.at(snapshot), &camera, SIZE_CLOSE)
+}
+
+/// Takes the pictures from the robot's right with a camera that stays where it is; nothing without
+/// rows.
+fn sequence(world: &World, gait: &str, crawl: &Crawl) -> Result<Option<Frames>, FramesError> {
     let (Some(first), Some(last)) = (crawl.rows.first(), crawl.rows.last()) else {
         return Ok(None);
     };

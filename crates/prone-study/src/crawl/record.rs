@@ -8,11 +8,12 @@ use super::run::{Conditions, GaitSource, RecordInfo, Subject};
 use super::summary::CrawlSummary;
 use super::tables::Instant;
 use super::{frames, model, tables};
-use crate::figures::{self, FigureError};
+use crate::figure_list::FigureList;
+use crate::figures::{self, AngleRecord, FigureError};
 use crate::frames::FramesError;
 use crate::output::{Artefacts, RUN_FILE};
 use crate::recorded::{CONTACTS_FILE, Command, Extent, MODEL_FILE, ROWS_FILE};
-use crate::reproduce::{PNG_SCALE, insert_figure, json};
+use crate::reproduce::{PNG_SCALE, json};
 use crate::run_info::Program;
 
 /// Why a record has no files.
@@ -62,13 +63,16 @@ pub fn files(recording: &Recording<'_>, program: &Program) -> Result<Artefacts, 
         ..
     } = *recording;
     let mut artefacts = numbers(recording, Command::Crawl, program)?;
-    if let Some(frames) = frames::sequence(world, &summary.gait, crawl)? {
-        insert_figure(&mut artefacts, frames.figure, frames.png);
+    let mut list = FigureList::default();
+    for frames in frames::all(world, &summary.gait, crawl)? {
+        list.picture(&mut artefacts, frames.figure, frames.png);
     }
-    if let Some(figure) = figures::crawl_angles(world.robot(), &summary.gait, crawl)? {
+    let angles = AngleRecord::of(world.robot(), &summary.gait, crawl);
+    if let Some(figure) = figures::crawl_angles(&angles)? {
         let png = figure.png(PNG_SCALE)?;
-        insert_figure(&mut artefacts, figure, png);
+        list.drawing(&mut artefacts, "figures/", figure, png);
     }
+    list.finish(&mut artefacts)?;
     Ok(artefacts)
 }
 

@@ -147,11 +147,7 @@ impl<'a, O> RecordInfo<'a, O> {
             built: program.clone(),
             command: subject.command,
             engine: prone_sim::engine_version(),
-            robot: RobotInfo {
-                name: robot.robot().name.clone(),
-                folder: robot.files().folder.clone(),
-                sha256: robot.files().hash(),
-            },
+            robot: RobotInfo::of(robot),
             gait: GaitInfo {
                 name: &gait.name,
                 description: &gait.description,

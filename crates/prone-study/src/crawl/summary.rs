@@ -1,6 +1,6 @@
 //! A crawl in figures: `summary.json`, and what `prone crawl run` prints.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale};
 use prone::robot::Robot;
@@ -8,11 +8,12 @@ use prone::statics::GRAVITY;
 use prone_sim::World;
 use prone_sim::crawl::{BodyPart, Crawl, CycleRow, Tops, Touch};
 
+use super::joints::{self, JointSummary};
 use super::obstacle_name;
 use crate::gait_sheet::SheetClamp;
 
 /// What came out of a crawl.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CrawlSummary {
     /// The cycle's name.
     pub gait: String,
@@ -79,6 +80,13 @@ pub struct CrawlSummary {
     pub work_j: f64,
     /// That work over weight times distance; nothing where it did not come forward.
     pub cost_of_transport: Option<f64>,
+    /// What the windings of the motors lost, J: an estimate; nothing where a motor is not known.
+    pub winding_loss_j: Option<f64>,
+    /// Work and winding loss over weight times distance: an estimate, in which gears lose nothing
+    /// and what is braked is not given back.
+    pub electrical_cost_of_transport: Option<f64>,
+    /// What each motor did.
+    pub joints: Vec<JointSummary>,
     /// Joints stopped at their limits in the plan without a turn.
     pub clamps: Vec<SheetClamp>,
     /// One entry per cycle.
@@ -86,7 +94,7 @@ pub struct CrawlSummary {
 }
 
 /// A part of the robot that met an obstacle.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PlateContact {
     /// The part, by its name in the model.
     pub body: String,
@@ -103,7 +111,7 @@ pub struct PlateContact {
 }
 
 /// Highest points by part of the body, mm.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct TopsMm {
     /// Neck and head.
     pub head: f64,
@@ -118,7 +126,7 @@ pub struct TopsMm {
 }
 
 /// One cycle.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CycleSummary {
     /// From 1.
     pub cycle: usize,
@@ -180,6 +188,9 @@ pub fn of(
     let (saturated, saturated_joint) = longest_saturated(crawl);
     let metres = (distance_mm > 0.0).then_some(distance_mm / 1e3);
     let (heat_s, work_j) = (crawl.effort.heat(robot), crawl.effort.work());
+    let weight = robot.mass() * GRAVITY;
+    let joints = joints::of(robot, &crawl.effort);
+    let winding_loss_j = joints::winding_loss(&joints);
     let shoulders = robot.chain.sides().map(|side| side.shoulder);
     let shoulders = shoulders.map(|joint| crawl.effort.joints[joint.0]);
     let demanded = shoulders.map(|shoulder| shoulder.demanded_peak);
@@ -215,7 +226,12 @@ pub fn of(
         heat_s,
         heat_per_metre_s: metres.map(|metres| heat_s / metres),
         work_j,
-        cost_of_transport: metres.map(|metres| work_j / (robot.mass() * GRAVITY * metres)),
+        cost_of_transport: metres.map(|metres| work_j / (weight * metres)),
+        winding_loss_j,
+        electrical_cost_of_transport: metres
+            .zip(winding_loss_j)
+            .map(|(metres, loss)| (work_j + loss) / (weight * metres)),
+        joints,
         clamps: clamps(robot, &checked),
         per_cycle,
     })

@@ -1,9 +1,7 @@
 //! Refuses records with numbers that no axis can show, before anything is drawn.
 
-use super::FigureError;
+use super::{AngleRecord, ConfirmedRecord, FigureError, SearchRecord};
 use prone::torque_map::{Row, TorqueMap};
-
-use prone_sim::crawl::Crawl;
 
 use crate::record::{ChainRecord, CostRecord, JOINTS, PullRecord};
 
@@ -67,11 +65,38 @@ pub(super) fn costs(records: &[CostRecord]) -> Result<(), FigureError> {
 }
 
 /// Time, command and angle of every row of a crawl.
-pub(super) fn crawl(gait: &str, crawl: &Crawl) -> Result<(), FigureError> {
-    for (index, row) in crawl.rows.iter().enumerate() {
-        let angles = row.command.as_slice().iter().chain(row.angles.as_slice());
-        for value in angles.chain([&row.time]) {
-            drawable(*value, || format!("crawl of {gait}, row {index}"))?;
+pub(super) fn angles(record: &AngleRecord) -> Result<(), FigureError> {
+    for (index, row) in record.rows.iter().enumerate() {
+        let angles = row.command_rad.iter().chain(&row.angle_rad);
+        for value in angles.chain([&row.time_s]) {
+            drawable(*value, || format!("crawl of {}, row {index}", record.gait))?;
+        }
+    }
+    Ok(())
+}
+
+/// Every number of a search.
+pub(super) fn search(record: &SearchRecord) -> Result<(), FigureError> {
+    for row in &record.generations {
+        let means = [row.mean_value, row.mean_feasible_value];
+        let values = [row.best_violation, row.best_value, row.mean_violation];
+        for value in values.into_iter().chain(means.into_iter().flatten()) {
+            // A best gait that breaks rules may have no torque at all, and is not drawn there.
+            if value.is_finite() {
+                drawable(value, || format!("generation {}", row.generation))?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Every number of a confirmation.
+pub(super) fn confirmed(rows: &[ConfirmedRecord]) -> Result<(), FigureError> {
+    for row in rows {
+        let place = || format!("confirmation of {} at {} s", row.gait, row.duration_s);
+        positive(row.duration_s, place)?;
+        if let Some(ratio) = row.ratio {
+            drawable(ratio, place)?;
         }
     }
     Ok(())

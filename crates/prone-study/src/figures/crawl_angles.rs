@@ -1,6 +1,6 @@
 //! Figure 31: joint angles of the left side over a few crawl cycles.
 
-use prone::robot::{JointId, Robot};
+use prone::robot::Robot;
 use prone_sim::crawl::Crawl;
 
 use super::axis::Axis;
@@ -9,38 +9,89 @@ use super::sheet::{KeyEntry, Sheet};
 use super::style::{BAND, CURVE_WIDTH, INK, LIGHT, Stroke};
 use super::{Figure, FigureError, Wording, check};
 use crate::published;
+use crate::tables::as_written;
 
-/// How many cycles are shown.
-const CYCLES: usize = 4;
+/// What is drawn of a crawl: the first cycles of some joints.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AngleRecord {
+    /// Name of the cycle.
+    pub gait: String,
+    /// Names of the joints, in the order of the rows.
+    pub joints: Vec<String>,
+    /// Of the first cycles.
+    pub rows: Vec<AngleRow>,
+    /// How many cycles these are.
+    pub cycles: usize,
+}
 
-/// One panel for each joint of the left chain; nothing without rows.
-pub(crate) fn figure(
-    robot: &Robot,
-    gait: &str,
-    crawl: &Crawl,
-) -> Result<Option<Figure>, FigureError> {
-    check::crawl(gait, crawl)?;
-    let rows: Vec<_> = crawl.rows.iter().filter(|row| row.cycle < CYCLES).collect();
-    let Some(end) = rows.last().map(|row| row.time) else {
+/// One instant.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AngleRow {
+    /// Since the first pull began, s.
+    pub time_s: f64,
+    /// What was commanded, rad.
+    pub command_rad: Vec<f64>,
+    /// What was reached, rad.
+    pub angle_rad: Vec<f64>,
+}
+
+impl AngleRecord {
+    /// How many cycles are shown.
+    pub const CYCLES: usize = 4;
+
+    /// The left chain of a crawl that was simulated with rows, to the digits of `rows.csv`.
+    pub fn of(robot: &Robot, gait: &str, crawl: &Crawl) -> Self {
+        let joints = robot.chain.left.commanded_joints();
+        let rows = crawl.rows.iter().filter(|row| row.cycle < Self::CYCLES);
+        let rows = rows.map(|row| AngleRow {
+            time_s: as_written(row.time, 4),
+            command_rad: joints
+                .map(|joint| as_written(row.command[joint], 6))
+                .to_vec(),
+            angle_rad: joints
+                .map(|joint| as_written(row.angles[joint], 6))
+                .to_vec(),
+        });
+        Self {
+            gait: gait.to_owned(),
+            joints: joints
+                .map(|joint| robot.joints[joint.0].name.clone())
+                .to_vec(),
+            rows: rows.collect(),
+            cycles: Self::CYCLES.min(crawl.cycles.len()),
+        }
+    }
+}
+
+/// One panel for each joint; nothing without rows.
+///
+/// # Errors
+/// [`FigureError`] where a number cannot be drawn.
+pub fn figure(record: &AngleRecord) -> Result<Option<Figure>, FigureError> {
+    check::angles(record)?;
+    let AngleRecord {
+        gait,
+        joints,
+        rows,
+        cycles: shown,
+    } = record;
+    let Some(end) = rows.last().map(|row| row.time_s) else {
         return Ok(None);
     };
     let mut any_band = false;
-    let panels = robot.chain.left.commanded_joints().map(|joint| {
-        let name = &robot.joints[joint.0].name;
-        let over_time = |angle: &dyn Fn(usize, JointId) -> f64| {
-            let points = rows.iter().enumerate();
-            points
-                .map(|(index, row)| (row.time, angle(index, joint)))
-                .collect()
+    let panels = joints.iter().enumerate().map(|(joint, name)| {
+        let over_time = |angles: fn(&AngleRow) -> &[f64]| {
+            let points = rows.iter();
+            points.map(|row| (row.time_s, angles(row)[joint])).collect()
         };
         let curves = vec![
             Curve {
-                points: over_time(&|index, joint| rows[index].command[joint]),
+                points: over_time(|row| &row.command_rad),
                 stroke: Stroke::solid(LIGHT, CURVE_WIDTH + 1.0),
                 marker: None,
             },
             Curve {
-                points: over_time(&|index, joint| rows[index].angles[joint]),
+                points: over_time(|row| &row.angle_rad),
                 stroke: Stroke::solid(INK, CURVE_WIDTH),
                 marker: None,
             },
@@ -59,6 +110,7 @@ pub(crate) fn figure(
             .extend(band.map(|(low, high)| Band { low, high }));
         panel
     });
+    let panels: Vec<Panel> = panels.collect();
     let mut key = vec![
         KeyEntry::line(
             "measured, ours".to_owned(),
@@ -87,9 +139,8 @@ pub(crate) fn figure(
         bar: None,
         columns: 2,
         frame_height: 130.0,
-        panels: panels.to_vec(),
+        panels,
     };
-    let shown = CYCLES.min(crawl.cycles.len());
     let wording = Wording {
         stem: format!("fig-31-{gait}-angles"),
         number: "31",
@@ -99,8 +150,9 @@ pub(crate) fn figure(
              with {gait}. {source}"
         ),
         alt: format!(
-            "Seven panels, one for each joint of the left leg and arm, with commanded and measured \
-             angle over {end:.0} seconds."
+            "Line plots, one for each of {} joints of the left leg and arm, of commanded and measured \
+             angle over {end:.0} seconds.",
+            joints.len()
         ),
     };
     Ok(Some(wording.with(&sheet)))

@@ -173,20 +173,12 @@ impl View<'_> {
             ticks_across(self.x, self.frame.width),
             ticks_up(self.y, self.frame.height),
         );
-        let fine = Stroke::solid(MINOR_GRID, 0.7);
-        x.minor
-            .iter()
-            .for_each(|x| self.draw_rule(canvas, Rule::At(*x, fine)));
-        y.minor
-            .iter()
-            .for_each(|y| self.draw_rule(canvas, Rule::Level(*y, fine)));
-        let coarse = Stroke::solid(GRID, 0.9);
-        x.major
-            .iter()
-            .for_each(|tick| self.draw_rule(canvas, Rule::At(tick.0, coarse)));
-        y.major
-            .iter()
-            .for_each(|tick| self.draw_rule(canvas, Rule::Level(tick.0, coarse)));
+        let fine = x.minor.iter().map(|x| self.upright(*x));
+        let fine = fine.chain(y.minor.iter().map(|y| self.level(*y)));
+        canvas.lines(&fine.collect::<Vec<_>>(), Stroke::solid(MINOR_GRID, 0.7));
+        let coarse = x.major.iter().map(|tick| self.upright(tick.0));
+        let coarse = coarse.chain(y.major.iter().map(|tick| self.level(tick.0)));
+        canvas.lines(&coarse.collect::<Vec<_>>(), Stroke::solid(GRID, 0.9));
     }
 
     fn draw_band(&self, canvas: &mut Canvas, band: Band) {
@@ -205,17 +197,29 @@ impl View<'_> {
     }
 
     fn draw_rule(&self, canvas: &mut Canvas, rule: Rule) {
-        let frame = self.frame;
-        match rule {
+        let (from, to, stroke) = match rule {
             Rule::At(x, stroke) => {
-                let x = self.across(x);
-                canvas.line((x, frame.top), (x, frame.bottom()), stroke);
+                let (from, to) = self.upright(x);
+                (from, to, stroke)
             }
             Rule::Level(y, stroke) => {
-                let y = self.down(y);
-                canvas.line((frame.left, y), (frame.right(), y), stroke);
+                let (from, to) = self.level(y);
+                (from, to, stroke)
             }
-        }
+        };
+        canvas.line(from, to, stroke);
+    }
+
+    /// Ends of the upright line at `x`.
+    fn upright(&self, x: f64) -> (Point, Point) {
+        let x = self.across(x);
+        ((x, self.frame.top), (x, self.frame.bottom()))
+    }
+
+    /// Ends of the level line at `y`.
+    fn level(&self, y: f64) -> (Point, Point) {
+        let y = self.down(y);
+        ((self.frame.left, y), (self.frame.right(), y))
     }
 
     fn draw_curve(&self, canvas: &mut Canvas, curve: &Curve) {

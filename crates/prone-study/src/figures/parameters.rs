@@ -38,7 +38,8 @@ pub(super) fn figure(chains: &[ChainRecord]) -> Option<Figure> {
         title: format!("Gait parameters over the phase: {}", gaits.join(", ")),
         caption: "The three angles that define the closed chain, in degrees, over the phase s = \
                   t / duration: θ3 at the knee, θ4 at the hip, and α, the absolute angle of the \
-                  upper arm. Source: the gaits as planned here, from the published parameters."
+                  upper arm. Source: the gaits as planned here; nominal and optimal are the \
+                  published ones."
             .to_owned(),
         alt: format!(
             "Three line plots of the angles theta 3, theta 4 and alpha in degrees against the \

@@ -6,7 +6,7 @@ use resvg::usvg::{Options, Tree};
 use super::{FigureError, font, style};
 
 /// Rasterises `svg` at `scale` pixels per unit.
-pub(super) fn png(svg: &str, scale: f32) -> Result<Vec<u8>, FigureError> {
+pub(crate) fn png(svg: &str, scale: f32) -> Result<Vec<u8>, FigureError> {
     let tree = parse(svg)?;
     let mut pixels = blank(
         tree.size().width() * scale,

@@ -7,39 +7,58 @@ use super::style::{
     CURVE_WIDTH, Dash, Fill, MARKER_RADIUS, Marker, REFERENCE, Stroke, gait_shape, gait_stroke,
 };
 use super::svg::Point;
-use super::{Figure, FigureError, Wording};
-use crate::optimize::confirm::{Confirmation, Row};
+use super::{Figure, FigureError, Wording, check};
+use crate::optimize::confirm::Confirmation;
 use crate::optimize::objective::Objective;
-use crate::optimize::search::{Search, SeededRun};
+use crate::optimize::search::Search;
+use crate::tables::as_written;
 
 /// Points of a curve at most: a figure is 900 units wide.
 const MOST_POINTS: usize = 400;
 
-/// Everything drawn of a search.
-///
-/// # Errors
-/// [`FigureError`] where a record holds a number that no axis can show.
-pub fn figures(
-    search: &Search,
-    confirmation: &Confirmation,
-    objective: &Objective,
-    scores: Scores,
-) -> Result<Vec<Figure>, FigureError> {
-    let drawn = [
-        generations(search, objective, scores),
-        ratios(confirmation, objective),
-    ];
-    for row in &confirmation.rows {
-        for value in [row.objective, row.duration_s] {
-            if !value.is_finite() {
-                return Err(FigureError::Value {
-                    place: format!("confirmation of {} at {} s", row.gait, row.duration_s),
-                    value,
-                });
-            }
-        }
-    }
-    Ok(drawn.into_iter().flatten().collect())
+/// What is drawn of a search: the run that found the best, generation by generation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SearchRecord {
+    /// Of that run.
+    pub seed: u64,
+    /// Name of the torque part.
+    pub objective: String,
+    /// Its unit.
+    pub unit: String,
+    /// What the scores mean.
+    pub scores: Scores,
+    /// One by one.
+    pub generations: Vec<GenerationRecord>,
+}
+
+/// One generation of a search.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GenerationRecord {
+    /// Its number, from 1.
+    pub generation: u64,
+    /// Of the best gait so far.
+    pub best_violation: f64,
+    /// The torque part of the best gait so far.
+    pub best_value: f64,
+    /// Mean of all gaits.
+    pub mean_violation: f64,
+    /// Mean torque part of all gaits, where it is known.
+    pub mean_value: Option<f64>,
+    /// The same of those that break no rule; nothing without any.
+    pub mean_feasible_value: Option<f64>,
+}
+
+/// What is drawn of one simulated pull of a confirmation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ConfirmedRecord {
+    /// Contact regime.
+    pub regime: String,
+    /// Name of the gait.
+    pub gait: String,
+    /// Duration of the pull, s.
+    pub duration_s: f64,
+    /// What the search minimised, over that of the first gait; nothing where that is not known.
+    pub ratio: Option<f64>,
 }
 
 /// What the scores of a search mean.
@@ -51,65 +70,130 @@ pub enum Scores {
     Graded,
 }
 
-/// The run that found the best gait.
-fn generations(search: &Search, objective: &Objective, scores: Scores) -> Option<Figure> {
-    let (run, _) = search.best()?;
-    let unit = objective.unit();
-    let (left, right) = match scores {
+impl SearchRecord {
+    /// The best run of a search, to the digits of `history.csv`; nothing where none has a gait.
+    pub fn of(search: &Search, objective: &Objective, scores: Scores) -> Option<Self> {
+        let (run, _) = search.best()?;
+        let written = |value: f64| as_written(value, 6);
+        let finite = |value: f64| Some(written(value)).filter(|value| value.is_finite());
+        let generations = run.history.0.iter().map(|row| GenerationRecord {
+            generation: row.generation,
+            best_violation: written(row.best.violation()),
+            best_value: written(row.best.value()),
+            mean_violation: written(row.mean_violation),
+            mean_value: finite(row.mean_value),
+            mean_feasible_value: (row.feasible > 0).then(|| written(row.mean_feasible_value)),
+        });
+        Some(Self {
+            seed: run.seed,
+            objective: objective.name().to_owned(),
+            unit: objective.unit().to_owned(),
+            scores,
+            generations: generations.collect(),
+        })
+    }
+}
+
+impl ConfirmedRecord {
+    /// Of every row of a confirmation.
+    pub fn of(confirmation: &Confirmation) -> Vec<Self> {
+        let rows = confirmation.rows.iter().map(|row| Self {
+            regime: row.regime.to_owned(),
+            gait: row.gait.clone(),
+            duration_s: row.duration_s,
+            ratio: Some(row.ratio).filter(|ratio| ratio.is_finite()),
+        });
+        rows.collect()
+    }
+}
+
+/// Figure 24; nothing without generations.
+///
+/// # Errors
+/// [`FigureError`] where a number cannot be drawn.
+pub fn generations(search: &SearchRecord) -> Result<Option<Figure>, FigureError> {
+    check::search(search)?;
+    if search.generations.is_empty() {
+        return Ok(None);
+    }
+    let unit = &search.unit;
+    let rows = &search.generations;
+    let (left, right) = match search.scores {
         Scores::Published => (
-            panel(run, "broken rules", "violated samples", |row| {
-                (Some(row.best.violation()), Some(row.mean_violation))
-            }),
-            panel(run, "torque part", &format!("Σ w τ² dt, {unit}"), |row| {
-                (Some(row.best.value()), Some(row.mean_value))
-            }),
-        ),
-        Scores::Graded => (
-            panel(run, "broken rules", "excess, shares of limits", |row| {
-                (Some(row.best.violation()), None)
+            panel(rows, "broken rules", "violated samples", |row| {
+                (Some(row.best_violation), Some(row.mean_violation))
             }),
             panel(
-                run,
+                rows,
+                "torque part",
+                &format!("Σ w τ² dt, {unit}"),
+                |row| (Some(row.best_value), row.mean_value),
+            ),
+        ),
+        Scores::Graded => (
+            panel(rows, "broken rules", "excess, shares of limits", |row| {
+                (Some(row.best_violation), None)
+            }),
+            panel(
+                rows,
                 "gaits that keep the rules",
-                &format!("{}, {unit}", objective.name()),
+                &format!("{}, {unit}", search.objective),
                 |row| {
-                    let feasible = row.best.violation() == 0.0;
-                    (
-                        feasible.then(|| row.best.value()),
-                        (row.feasible > 0).then_some(row.mean_feasible_value),
-                    )
+                    let feasible = row.best_violation == 0.0;
+                    (feasible.then_some(row.best_value), row.mean_feasible_value)
                 },
             ),
         ),
     };
+    let known = |row: &GenerationRecord| match search.scores {
+        Scores::Published => row.mean_value.is_some(),
+        Scores::Graded => row.mean_feasible_value.is_some(),
+    };
+    let means = rows.iter().any(known);
     let key = [("best of the run so far", 0), ("mean of the generation", 1)];
+    let key = key.into_iter().take(if means { 2 } else { 1 });
     let sheet = Sheet {
         key: key
             .map(|(label, index)| KeyEntry::line(label.to_owned(), stroke(index), None))
-            .to_vec(),
+            .collect(),
         bar: None,
         columns: 2,
         frame_height: 260.0,
         panels: vec![left, right],
     };
-    let mean = match scores {
-        Scores::Published => "all gaits of the generation",
-        Scores::Graded => "the gaits of the generation that keep the rules",
+    let (mean, searched) = match search.scores {
+        Scores::Published => ("all gaits of the generation", "the torque part"),
+        Scores::Graded => (
+            "the gaits of the generation that keep the rules",
+            search.objective.as_str(),
+        ),
+    };
+    let dashed = if means {
+        format!(" Dashed: the mean of {mean}.")
+    } else {
+        String::new()
     };
     let wording = Wording {
         stem: "fig-24-search".to_owned(),
         number: "24",
-        title: "Best and mean of each generation".to_owned(),
+        title: if means {
+            "Best and mean of each generation"
+        } else {
+            "Best of each generation"
+        }
+        .to_owned(),
         caption: format!(
-            "The run with seed {} over its generations: left the rules that are broken, right the \
-             torque part. Solid: the best gait so far. Dashed: the mean of {mean}. Fewer violations \
-             win, and torque decides between equals. Source: our search.",
-            run.seed
+            "The run with seed {} over its generations: left the rules that are broken, right {searched}. \
+             Solid: the best gait so far.{dashed} Fewer violations win, and {searched} decides between \
+             equals. Source: our search.",
+            search.seed
         ),
-        alt: "Line plots of violations and of torque, best and mean, against generation."
-            .to_owned(),
+        alt: format!(
+            "Line plots of broken rules and of {searched}, the best of each generation, against \
+             generation."
+        ),
     };
-    Some(wording.with(&sheet))
+    Ok(Some(wording.with(&sheet)))
 }
 
 fn stroke(index: usize) -> Stroke {
@@ -121,12 +205,11 @@ fn stroke(index: usize) -> Stroke {
 }
 
 fn panel(
-    run: &SeededRun,
+    rows: &[GenerationRecord],
     title: &str,
     label: &str,
-    of: impl Fn(&prone_optim::Generation) -> (Option<f64>, Option<f64>),
+    of: impl Fn(&GenerationRecord) -> (Option<f64>, Option<f64>),
 ) -> Panel {
-    let rows = &run.history.0;
     let step = rows.len().div_ceil(MOST_POINTS).max(1);
     let (mut best, mut mean) = (Vec::new(), Vec::new());
     for row in rows.iter().step_by(step).chain(rows.last()) {
@@ -153,25 +236,33 @@ fn panel(
     Panel::new(title, x, y, vec![curve(mean, 1), curve(best, 0)])
 }
 
-/// Cost over the first gait's against duration, a panel per regime.
-fn ratios(confirmation: &Confirmation, objective: &Objective) -> Option<Figure> {
+/// Cost over the first gait's against duration, a panel per regime; nothing without rows.
+///
+/// # Errors
+/// [`FigureError`] where a number cannot be drawn.
+pub fn confirmation(
+    rows: &[ConfirmedRecord],
+    objective: &str,
+) -> Result<Option<Figure>, FigureError> {
+    check::confirmed(rows)?;
     let mut gaits: Vec<&str> = Vec::new();
     let mut regimes: Vec<&str> = Vec::new();
-    for row in &confirmation.rows {
+    for row in rows {
         if !gaits.contains(&row.gait.as_str()) {
             gaits.push(&row.gait);
         }
-        if !regimes.contains(&row.regime) {
-            regimes.push(row.regime);
+        if !regimes.contains(&row.regime.as_str()) {
+            regimes.push(&row.regime);
         }
     }
     let [base, others @ ..] = &gaits[..] else {
-        return None;
+        return Ok(None);
     };
     let curve = |regime: &str, gait: &str| -> Vec<Point> {
-        let own = |row: &&Row| row.regime == regime && row.gait == gait && row.ratio.is_finite();
-        let rows = confirmation.rows.iter().filter(own);
-        rows.map(|row| (row.duration_s, row.ratio)).collect()
+        let own = |row: &&ConfirmedRecord| row.regime == regime && row.gait == gait;
+        let rows = rows.iter().filter(own);
+        rows.filter_map(|row| Some((row.duration_s, row.ratio?)))
+            .collect()
     };
     let marker = |index: usize| Marker {
         shape: gait_shape(index),
@@ -192,7 +283,7 @@ fn ratios(confirmation: &Confirmation, objective: &Objective) -> Option<Figure> 
         let longest = points().map(|point| point.0).fold(0.0, f64::max);
         let x = Axis::exactly("duration of the pull, s", 0.0, 1.05 * longest);
         let values = points().map(|point| point.1).chain([1.0]);
-        let y = Axis::covering(&format!("{} over {base}'s", objective.name()), values);
+        let y = Axis::covering(&format!("{objective} over {base}'s, –"), values);
         let mut panel = Panel::new(format!("regime {regime}"), x, y, curves);
         panel
             .rules
@@ -213,10 +304,7 @@ fn ratios(confirmation: &Confirmation, objective: &Objective) -> Option<Figure> 
     let wording = Wording {
         stem: "confirmation".to_owned(),
         number: "",
-        title: format!(
-            "The found gait in simulation: {} over {base}'s",
-            objective.name()
-        ),
+        title: format!("The found gait in simulation: {objective} over {base}'s"),
         caption: format!(
             "Each gait simulated from its own first pose, settled, at each duration of the pull and \
              in each contact regime; below 1 it costs less than {base}. Source: our simulation."
@@ -225,5 +313,5 @@ fn ratios(confirmation: &Confirmation, objective: &Objective) -> Option<Figure> 
             "Line plots of cost relative to the {base} gait against duration, a panel per regime."
         ),
     };
-    Some(wording.with(&sheet))
+    Ok(Some(wording.with(&sheet)))
 }

@@ -149,6 +149,28 @@ impl Canvas {
         self.curve(&[from, to], stroke);
     }
 
+    /// Straight lines of one kind, as one element: a grid of many is small.
+    pub(super) fn lines(&mut self, lines: &[(Point, Point)], stroke: Stroke) {
+        if lines.is_empty() {
+            return;
+        }
+        let segments = lines.iter().map(|(from, to)| {
+            let [from_x, from_y, to_x, to_y] = [from.0, from.1, to.0, to.1].map(number);
+            if from_x == to_x {
+                format!("M{from_x} {from_y}V{to_y}")
+            } else if from_y == to_y {
+                format!("M{from_x} {from_y}H{to_x}")
+            } else {
+                format!("M{from_x} {from_y}L{to_x} {to_y}")
+            }
+        });
+        let path: String = segments.collect();
+        self.element(&format!(
+            "<path d=\"{path}\" fill=\"none\"{}/>",
+            line_style(stroke)
+        ));
+    }
+
     /// A line through all points.
     pub(super) fn curve(&mut self, points: &[Point], stroke: Stroke) {
         self.element(&format!(

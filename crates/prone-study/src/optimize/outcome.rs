@@ -11,6 +11,7 @@ use super::pricer::{NotCubic, Priced, Pricer};
 use super::problem::GaitProblem;
 use super::published_problem;
 use super::search::{Search, SearchEnd, SeededRun};
+use crate::curves_info::CurvesInfo;
 use crate::tables::{finish, number};
 
 /// Gaits of one form, priced.
@@ -69,6 +70,8 @@ impl Hunt<'_> {
 pub struct Outcome {
     /// Name of the gait.
     pub gait: String,
+    /// What it is made of.
+    pub curves: CurvesInfo,
     /// Its price.
     #[serde(flatten)]
     pub price: Priced,
@@ -185,6 +188,7 @@ pub fn of(
     });
     Ok(Outcome {
         gait: gait.name.clone(),
+        curves: CurvesInfo::of(gait),
         unit,
         seed: run.seed,
         evaluations: search.evaluations(),
@@ -230,9 +234,11 @@ pub fn history_csv(search: &Search) -> Result<Vec<u8>, csv::Error> {
         "feasible",
         "mean_feasible_torque",
         "restarts",
+        "mean_torque",
     ])?;
     for run in search.runs() {
         for row in &run.history.0 {
+            let mean_torque = (row.mean_value.is_finite()).then(|| number(row.mean_value, 6));
             let mean = (row.feasible > 0).then(|| number(row.mean_feasible_value, 6));
             table.write_record([
                 run.seed.to_string(),
@@ -246,6 +252,7 @@ pub fn history_csv(search: &Search) -> Result<Vec<u8>, csv::Error> {
                 row.feasible.to_string(),
                 mean.unwrap_or_default(),
                 row.restarts.to_string(),
+                mean_torque.unwrap_or_default(),
             ])?;
         }
     }

@@ -225,7 +225,7 @@ pub(super) fn stride(summary: &Summary) -> Markup {
                     @if index > 0 { "; " }
                     (format!("{:.1} mm at {:.0} % of the phase", peak.height_mm, peak.at_percent))
                     " (" (peak.gait) ", planned chain"
-                    @if let Some(published) = peak.published_mm { "; published: " (published) " mm" }
+                    @if let Some(published) = &peak.published_mm { "; published: " (published) " mm" }
                     ")"
                 }
                 "."
@@ -367,40 +367,36 @@ pub(super) fn differences() -> Markup {
     }
 }
 
-pub(super) fn what_was_run(info: &RunInfo) -> Markup {
+/// Under which conditions a reproduction was made: entries of a list.
+pub(super) fn study_facts(info: &RunInfo) -> Markup {
     let options = &info.options;
     let durations: Vec<String> = options.durations_s.iter().map(f64::to_string).collect();
     html! {
-        section {
-            h2 { "What was run" }
-            dl {
-                @for gait in &options.gaits {
-                    dt { "gait " (gait.name) }
-                    dd { (gait.description) "; mapping " (gait.mapping) ", arms " (gait.arm) }
-                }
-                dt { "durations" } dd { (durations.join(", ")) " s" }
-                dt { "robot" } dd { (info.robot.name) ", " (info.robot.folder) ", SHA-256 " (info.robot.sha256) }
-                dt { "engine" } dd { (info.engine) ", time step " (options.time_step_s * 1e3) " ms" }
-                dt { "contact regime" } dd { (options.regime) ": friction " (options.friction) ", impratio " (options.impratio) }
-                dt { "servo" } dd {
-                    "speed command " (options.servo_rate_per_s) " /s × error, at most ±" (options.servo_speed_rad_s)
-                    " rad/s; commands change every " (options.control_step_s * 1e3) " ms; torque limit " (options.effort_limit)
-                }
-                dt { "joint stops" } dd { (options.stops) }
-                @if let Some(table) = &options.table {
-                    dt { "cycle " (table.gait) }
-                    dd {
-                        (table.description) "; scene " (table.scene) ", contact regime "
-                        (table.regime) ": friction " (table.friction) ", impratio " (table.impratio)
-                    }
-                }
-                dt { "start" } dd { "posture " (options.start_posture) ", laid on the belly, held for " (options.settle_s) " s" }
+        @for gait in &options.gaits {
+            dt { "gait " (gait.name) }
+            dd { (gait.description) "; mapping " (gait.mapping) ", arms " (gait.arm) }
+        }
+        dt { "durations" } dd { (durations.join(", ")) " s" }
+        dt { "robot" } dd { (info.robot.name) ", " (info.robot.folder) ", SHA-256 " (info.robot.sha256) }
+        dt { "time step" } dd { (options.time_step_s * 1e3) " ms" }
+        dt { "contact regime" } dd { (options.regime) ": friction " (options.friction) ", impratio " (options.impratio) }
+        dt { "servo" } dd {
+            "speed command " (options.servo_rate_per_s) " /s × error, at most ±" (options.servo_speed_rad_s)
+            " rad/s; commands change every " (options.control_step_s * 1e3) " ms; torque limit " (options.effort_limit)
+        }
+        dt { "joint stops" } dd { (options.stops) }
+        @if let Some(table) = &options.table {
+            dt { "cycle " (table.gait) }
+            dd {
+                (table.description) "; scene " (table.scene) ", contact regime "
+                (table.regime) ": friction " (table.friction) ", impratio " (table.impratio)
             }
         }
+        dt { "start" } dd { "posture " (options.start_posture) ", laid on the belly, held for " (options.settle_s) " s" }
     }
 }
 
-fn optional(value: Option<f64>, show: impl Fn(f64) -> String) -> String {
+pub(super) fn optional(value: Option<f64>, show: impl Fn(f64) -> String) -> String {
     value.map_or_else(|| "–".to_owned(), show)
 }
 

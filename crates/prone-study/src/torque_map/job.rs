@@ -108,7 +108,7 @@ impl<'r> Job<'r> {
 
     /// What decides every byte of the result.
     pub(super) fn identity(&self) -> Identity {
-        let Program { version, commit } = self.program;
+        let Program { version, commit } = &self.program;
         let mut identity: Identity = self
             .grid
             .bounds()
@@ -130,7 +130,7 @@ impl<'r> Job<'r> {
 
     /// The comments at the head of the file, one per line.
     pub(super) fn comments(&self) -> Vec<String> {
-        let Program { version, commit } = self.program;
+        let Program { version, commit } = &self.program;
         let grid = self.grid.grid();
         let (knees, hips, arms) = (grid.knee.len(), grid.hip.len(), grid.upper_arm.len());
         let [theta3, theta4, alpha, step] = self.grid.bounds().map(|bound| bound.1);

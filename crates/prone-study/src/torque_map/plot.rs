@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use prone::torque_map::TorqueMap;
 
+use crate::figure_list::FigureList;
 use crate::figures::{self, FigureError};
 use crate::output::{Artefacts, RUN_FILE};
 use crate::reproduce::{PNG_SCALE, json};
@@ -55,6 +56,7 @@ struct PlotInfo<'a> {
     program: &'static str,
     #[serde(flatten)]
     built: &'a Program,
+    command: &'static str,
     map: &'a str,
     map_comments: &'a [String],
     figures: Vec<FigureInfo>,
@@ -110,19 +112,21 @@ pub fn artefacts(
 ) -> Result<Artefacts, PlotError> {
     let mut artefacts = Artefacts::new();
     let mut infos = Vec::new();
+    let mut list = FigureList::default();
     for figure in figures::torque_map_figures(map, slices)? {
         let png = figure.png(PNG_SCALE)?;
-        artefacts.insert(format!("{}.png", figure.stem), png);
-        artefacts.insert(format!("{}.svg", figure.stem), figure.svg.into_bytes());
         infos.push(FigureInfo {
             file: format!("{}.svg", figure.stem),
-            title: figure.title,
-            caption: figure.caption,
+            title: figure.title.clone(),
+            caption: figure.caption.clone(),
         });
+        list.drawing(&mut artefacts, "", figure, png);
     }
+    list.finish(&mut artefacts)?;
     let info = PlotInfo {
         program: "prone",
         built: program,
+        command: "torque-map plot",
         map: &file.name,
         map_comments: &file.comments,
         figures: infos,
@@ -168,14 +172,15 @@ mod tests {
             comments: vec!["by hand".to_owned()],
         };
         let program = Program {
-            version: "0.0.0",
-            commit: "test",
+            version: "0.0.0".into(),
+            commit: "test".into(),
         };
         let files = artefacts(&map(), &[0, 2], &file, &program).unwrap();
         let names: Vec<_> = files.keys().map(String::as_str).collect();
         assert_eq!(
             names,
             [
+                "figures.json",
                 "run.json",
                 "torque-map-theta3+00.00deg.png",
                 "torque-map-theta3+00.00deg.svg",

@@ -121,6 +121,7 @@ pub(crate) fn two_armed() -> Robot {
     let left = builder.side(1.0);
     let right = builder.side(-1.0);
     let mut robot = Robot {
+        standing_height: None,
         name: "two-armed".to_owned(),
         bodies: builder.bodies,
         joints: builder.joints,

@@ -1,5 +1,6 @@
 //! A build is the same whatever happened on its way.
 
+use std::borrow::Cow;
 use std::fs;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -11,8 +12,8 @@ use crate::run_info::Program;
 use crate::torque_map::NodeGrid;
 
 const PROGRAM: Program = Program {
-    version: "0.0.0",
-    commit: "test",
+    version: Cow::Borrowed("0.0.0"),
+    commit: Cow::Borrowed("test"),
 };
 
 /// Counts, and stops before a row.

@@ -1,0 +1,167 @@
+//! `prone report`.
+
+use std::ffi::OsStr;
+use std::fs;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use anyhow::anyhow;
+
+use prone_study::output;
+use prone_study::report::{PAGE_FILE, Report, ReportError, Source};
+use prone_study::run_info::Program;
+
+use crate::args::ReportArgs;
+use crate::{Failure, interrupt, record_folder, table_file};
+
+pub(crate) fn run(args: &ReportArgs) -> Result<(), Failure> {
+    let sources = sources(&args.runs)?;
+    let page_alone = args.out.extension() == Some(OsStr::new("html"));
+    for source in sources.iter().filter(|source| source.folder.is_dir()) {
+        if page_alone {
+            record_folder::check_place(&args.out, &source.folder)?;
+        } else {
+            refuse_overlap(&args.out, &source.folder)?;
+        }
+    }
+    interrupt::listen()?;
+    if page_alone {
+        let place = args.out.display();
+        table_file::check_place(&args.out)
+            .map_err(|error| Failure::Input(anyhow!("cannot write {place}: {error}")))?;
+    } else {
+        output::check(&args.out).map_err(Failure::input)?;
+    }
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(args.threads.map_or(0, usize::from))
+        .build()
+        .map_err(|error| Failure::Work(anyhow!("cannot start worker threads: {error}")))?;
+    let report = pool.install(|| Report::of(&sources)).map_err(failure)?;
+    if page_alone {
+        let place = args.out.display();
+        interrupt::publish(|| {
+            table_file::write(&args.out, report.html.as_bytes())
+                .map_err(|error| Failure::Input(anyhow!("cannot write {place}: {error}")))
+        })?;
+    } else {
+        let program = Program {
+            version: env!("CARGO_PKG_VERSION").into(),
+            commit: env!("PRONE_COMMIT").into(),
+        };
+        let artefacts = pool
+            .install(|| report.files(&program))
+            .map_err(Failure::work)?;
+        interrupt::publish(|| output::publish(&args.out, &artefacts).map_err(Failure::work))?;
+    }
+    print(args, &report, page_alone)?;
+    record_folder::say_missing(&report.numbers.shortfalls)
+}
+
+/// The folders under the names that were typed, each once.
+fn sources(runs: &[PathBuf]) -> Result<Vec<Source>, Failure> {
+    let mut sources: Vec<Source> = Vec::new();
+    for run in runs {
+        let name = run.display().to_string();
+        let name = name.strip_suffix('/').unwrap_or(&name).to_owned();
+        let real = fs::canonicalize(run).unwrap_or_else(|_| run.clone());
+        let again = sources
+            .iter()
+            .find(|source| fs::canonicalize(&source.folder).is_ok_and(|folder| folder == real));
+        if let Some(again) = again {
+            return Err(Failure::Input(anyhow!(
+                "{name} is the same folder as {}",
+                again.name
+            )));
+        }
+        sources.push(Source {
+            name,
+            folder: run.clone(),
+        });
+    }
+    Ok(sources)
+}
+
+/// A result is replaced whole: nothing is put into one that is read, and none that holds one is
+/// replaced.
+fn refuse_overlap(out: &Path, run: &Path) -> Result<(), Failure> {
+    let result = record_folder::result(run)?;
+    let out_real = real(out);
+    if out_real.starts_with(&result) || result.starts_with(&out_real) {
+        return Err(Failure::Input(anyhow!(
+            "--out {} and {}, which is read, are one in the other: a result is replaced whole",
+            out.display(),
+            run.display()
+        )));
+    }
+    Ok(())
+}
+
+/// A path without links; what does not exist yet is appended to what does.
+fn real(path: &Path) -> PathBuf {
+    let mut missing = Vec::new();
+    let mut above = path;
+    loop {
+        let place = if above.as_os_str().is_empty() {
+            Path::new(".")
+        } else {
+            above
+        };
+        if let Ok(found) = fs::canonicalize(place) {
+            return missing
+                .iter()
+                .rev()
+                .fold(found, |path, name| path.join(name));
+        }
+        match (above.parent(), above.file_name()) {
+            (Some(parent), Some(name)) => {
+                missing.push(name.to_owned());
+                above = parent;
+            }
+            _ => return path.to_owned(),
+        }
+    }
+}
+
+fn failure(error: ReportError) -> Failure {
+    if error.is_input() {
+        Failure::input(error)
+    } else {
+        Failure::work(error)
+    }
+}
+
+fn print(args: &ReportArgs, report: &Report, page_alone: bool) -> Result<(), Failure> {
+    let mut out = std::io::stdout().lock();
+    if args.json {
+        let text = serde_json::to_string_pretty(&report.numbers).map_err(Failure::work)?;
+        writeln!(out, "{text}")?;
+        return Ok(());
+    }
+    let numbers = &report.numbers;
+    writeln!(
+        out,
+        "{} of {} figures of the chapter, {} others; {} report cards; {:.2} MB",
+        numbers.chapter_figures(),
+        numbers.chapter_figures() + numbers.missing.len(),
+        numbers
+            .figures
+            .iter()
+            .filter(|figure| figure.number.is_empty())
+            .count(),
+        numbers.cards.len(),
+        report.html.len() as f64 / 1e6
+    )?;
+    for missing in &numbers.missing {
+        let made_by = missing
+            .command
+            .unwrap_or("a robot on the wire, not driven yet");
+        writeln!(out, "  no figure {}: {made_by}", missing.number)?;
+    }
+    let page = if page_alone {
+        args.out.clone()
+    } else {
+        args.out.join(PAGE_FILE)
+    };
+    writeln!(out, "\nreport: {}", page.display())?;
+    Ok(())
+}

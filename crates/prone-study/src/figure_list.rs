@@ -1,0 +1,88 @@
+//! `figures.json`: what the drawings and pictures of a result folder show.
+//!
+//! A report shows those again that it cannot draw from tables, such as what the engine's camera saw.
+
+use serde::{Deserialize, Serialize};
+
+use crate::figures::Figure;
+use crate::output::Artefacts;
+
+/// Name of the file.
+pub const FIGURES_FILE: &str = "figures.json";
+
+/// One drawing or picture.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FigureEntry {
+    /// Path of its files in the folder, without extension.
+    pub file: String,
+    /// Number of its original in the thesis; empty where it has none.
+    pub number: String,
+    /// A few words.
+    pub title: String,
+    /// What is shown, in which unit, from which source.
+    pub caption: String,
+    /// Description for readers who do not see it.
+    pub alt: String,
+    /// Whether it is a picture: its SVG only wraps its PNG.
+    pub picture: bool,
+}
+
+/// Collects the entries while figures are put among the files of a result.
+#[derive(Debug, Default)]
+pub struct FigureList(Vec<FigureEntry>);
+
+impl FigureList {
+    /// Puts a drawing and its PNG into `folder` of the result; `folder` ends in `/` or is empty.
+    pub fn drawing(
+        &mut self,
+        artefacts: &mut Artefacts,
+        folder: &str,
+        figure: Figure,
+        png: Vec<u8>,
+    ) {
+        self.insert(artefacts, folder, figure, png, Kind::Drawing);
+    }
+
+    /// Puts a picture and the SVG around it into `figures/` of the result.
+    pub fn picture(&mut self, artefacts: &mut Artefacts, figure: Figure, png: Vec<u8>) {
+        self.insert(artefacts, "figures/", figure, png, Kind::Picture);
+    }
+
+    /// Puts `figures.json` into the result.
+    ///
+    /// # Errors
+    /// [`serde_json::Error`], which entries do not produce.
+    pub fn finish(self, artefacts: &mut Artefacts) -> Result<(), serde_json::Error> {
+        let mut text = serde_json::to_vec_pretty(&self.0)?;
+        text.push(b'\n');
+        artefacts.insert(FIGURES_FILE.to_owned(), text);
+        Ok(())
+    }
+
+    fn insert(
+        &mut self,
+        artefacts: &mut Artefacts,
+        folder: &str,
+        figure: Figure,
+        png: Vec<u8>,
+        kind: Kind,
+    ) {
+        let file = format!("{folder}{}", figure.stem);
+        artefacts.insert(format!("{file}.png"), png);
+        artefacts.insert(format!("{file}.svg"), figure.svg.into_bytes());
+        self.0.push(FigureEntry {
+            file,
+            number: figure.number.to_owned(),
+            title: figure.title,
+            caption: figure.caption,
+            alt: figure.alt,
+            picture: kind == Kind::Picture,
+        });
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Drawing,
+    Picture,
+}
