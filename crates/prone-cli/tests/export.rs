@@ -131,6 +131,25 @@ fn numpy_reads_the_arrays() {
 }
 
 #[test]
+fn rerun_converts_the_log() {
+    let home = tempfile::tempdir().unwrap();
+    let file = exported(&home, "mcap", &[]);
+    let Some(found) = read("rerun", &file) else {
+        return;
+    };
+    let rows = rows();
+    // Of the joints, which are in the order of the columns, the head's pitch is the second.
+    for (field, column) in [("position", "HeadPitch_rad"), ("effort", "HeadPitch_nm")] {
+        let (field, column) = (&found[field], &rows[column]);
+        assert_eq!(field["count"], column.len());
+        near(&field["first"][1][1], number(&column[0]), 0.0);
+        near(&field["last"][1][1], number(column.last().unwrap()), 0.0);
+    }
+    assert_eq!(found["velocity"]["count"], rows["time_s"].len());
+    assert_eq!(found["position"]["first"][0], "1970-01-01T00:00:00.020");
+}
+
+#[test]
 fn mcap_reads_the_log() {
     let home = tempfile::tempdir().unwrap();
     let file = exported(&home, "mcap", &[]);

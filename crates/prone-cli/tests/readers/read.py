@@ -6,7 +6,11 @@ Nothing here knows prone: libraries only are asked.
 """
 
 import json
+import os
+import re
+import subprocess
 import sys
+import tempfile
 
 
 def mcap(path):
@@ -48,6 +52,35 @@ def as_plain(message):
     if isinstance(message, (str, bytes, int, float)):
         return message
     return [as_plain(part) for part in message]
+
+
+def rerun(path):
+    """What Rerun's own converter makes of the log: rows of each scalar of the joint states."""
+    from importlib.metadata import version
+
+    version("rerun-sdk")
+    program = os.path.join(os.path.dirname(sys.executable), "rerun")
+    with tempfile.TemporaryDirectory() as home:
+        def run(*arguments):
+            # Its settings are kept apart: it greets a new user and asks about statistics.
+            environment = {**os.environ, "HOME": home, "XDG_CONFIG_HOME": home}
+            command = [program, *arguments]
+            done = subprocess.run(command, env=environment, check=True, capture_output=True, text=True)
+            return done.stdout
+
+        recording = os.path.join(home, "run.rrd")
+        run("mcap", "check", "--full", path)
+        run("mcap", "convert", path, "-o", recording)
+        run("rrd", "verify", recording)
+        found = {}
+        for field in ["position", "velocity", "effort"]:
+            shown = run("rrd", "print", "-vvv", "--entity", f"/joint_states/{field}", recording)
+            # Wide lists are cut off after some numbers.
+            lines = re.findall(r"row_\w+ +┆ (1970\S+) +┆ \S+ +┆ \S+ +┆ \[([^\]┆]*)", shown)
+            number = r"-?\d+(?:\.\d+)?(?:e-?\d+)?(?=[,\]])"
+            rows = sorted((time, [float(v) for v in re.findall(number, cells)]) for time, cells in lines)
+            found[field] = {"count": len(rows), "first": rows[0], "last": rows[-1]}
+        return found
 
 
 def npz(path):
@@ -164,8 +197,8 @@ def ffmpeg(_):
     return {"path": imageio_ffmpeg.get_ffmpeg_exe()}
 
 
-READERS = {"mcap": mcap, "npz": npz, "urdf": urdf, "xar": xar, "gif": picture, "webp": picture,
-           "mp4": video, "ffmpeg": ffmpeg}
+READERS = {"mcap": mcap, "rerun": rerun, "npz": npz, "urdf": urdf, "xar": xar, "gif": picture,
+           "webp": picture, "mp4": video, "ffmpeg": ffmpeg}
 
 if __name__ == "__main__":
     kind, file = sys.argv[1:]
