@@ -62,14 +62,16 @@ fn figures_agree_with_one_another() {
     assert!((x - number(&run, "distance_mm")).abs() < 1e-6, "{x}");
     assert!((y - number(&run, "lateral_mm")).abs() < 1e-6, "{y}");
     assert!(yaw > 0.1, "a command to the left turns to the left: {yaw}");
-    let over = |key: &str| number(&run, "distance_mm") / number(&run, key);
+    let over = |key: &str| number(&run, "path_mm") / number(&run, key);
     assert!((number(&run, "mm_per_cycle") - over("cycles")).abs() < 1e-9);
     assert!((number(&run, "mm_per_s") - over("time_s")).abs() < 1e-9);
     let efficiency = number(&run, "mm_per_cycle") / number(&run, "stride_mm");
     assert!((number(&run, "stride_efficiency") - efficiency).abs() < 1e-9);
     let parts = number(&run, "pull_mm_per_cycle") + number(&run, "recovery_mm_per_cycle");
     let own = cycles.iter().map(|cycle| number(cycle, "advance_mm"));
-    assert!((parts - own.sum::<f64>() / cycles.len() as f64).abs() < 1e-6);
+    let path = own.sum::<f64>();
+    assert!((number(&run, "path_mm") - path).abs() < 1e-6);
+    assert!((parts - path / cycles.len() as f64).abs() < 1e-6);
     assert!(
         number(&run, "peak_torque_over_rated") <= 1.0 + 1e-9,
         "effort limits are on"

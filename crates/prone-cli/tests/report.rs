@@ -166,7 +166,7 @@ fn what_a_card_says_is_in_the_record() {
     let number = |value: &Value| value.as_f64().unwrap();
     for (ours, recorded) in [
         ("speed_mm_s", "mm_per_s"),
-        ("distance_mm", "distance_mm"),
+        ("path_mm", "path_mm"),
         ("time_s", "time_s"),
         ("cost_of_transport_mechanical", "cost_of_transport"),
         (

@@ -97,8 +97,8 @@ pub(crate) fn start(
         title: "The simulated robot before a pull".to_owned(),
         caption: format!(
             "The posture from which our pulls begin: {posture}, laid on the belly and held for a \
-             second, ray cast from the simulation. Toes and elbows are planted ahead of and behind \
-             the body, which the floor still carries. Lines on the floor are 100 mm apart, heavy \
+             second, ray cast from the simulation. The floor still carries the trunk, between toes \
+             behind it and forearms ahead of it. Lines on the floor are 100 mm apart, heavy \
              ones 500 mm."
         ),
         alt: "The simulated robot from its right, flat on its belly, legs behind it on the toes, \

@@ -23,8 +23,8 @@ pub(super) fn print(summary: &CrawlSummary, out: &mut impl Write) -> Result<()> 
     )?;
     writeln!(
         out,
-        "  distance {:.1} mm: {:.1} mm per cycle, {:.1} mm/s; {:+.1} mm to the left, heading {:+.1}°",
-        s.distance_mm, s.mm_per_cycle, s.mm_per_s, s.lateral_mm, s.yaw_deg
+        "  path {:.1} mm: {:.1} mm per cycle, {:.1} mm/s; {:.1} mm ahead, {:+.1} mm to the left, heading {:+.1}°",
+        s.path_mm, s.mm_per_cycle, s.mm_per_s, s.distance_mm, s.lateral_mm, s.yaw_deg
     )?;
     writeln!(
         out,
@@ -55,7 +55,7 @@ pub(super) fn print(summary: &CrawlSummary, out: &mut impl Write) -> Result<()> 
     writeln!(out)?;
     writeln!(
         out,
-        "  peak torque {:.2} of rated ({}); demanded of a shoulder {:.2} N·m, more than its limit {:.1} % of the time",
+        "  peak torque {:.2} of the effort limit ({}); demanded of a shoulder {:.2} N·m, more than its limit {:.1} % of the time",
         s.peak_torque_over_rated,
         s.peak_torque_joint,
         s.demanded_peak_shoulder_nm,

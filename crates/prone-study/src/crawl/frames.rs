@@ -75,13 +75,13 @@ fn start(world: &World, gait: &str, crawl: &Crawl) -> Result<Option<Frames>, Fra
         number: "22",
         title: format!("The simulated robot at the start, {gait}"),
         caption: format!(
-            "The robot {:.2} s into its first pull with {gait}, ray cast from our simulation: toes \
-             and elbows are planted, the arms reach forward. Lines on the floor are 100 mm apart, \
-             heavy ones 500 mm.",
+            "The robot {:.2} s into its first pull with {gait}, ray cast from our simulation: the \
+             arms reach forward, and the floor still carries the trunk. Lines on the floor are \
+             100 mm apart, heavy ones 500 mm.",
             first.time
         ),
         alt:
-            "The simulated robot from its right and behind, prone, toes and forearms on the floor."
+            "The simulated robot from its right and behind, prone, legs behind it, arms ahead."
                 .to_owned(),
     };
     let picture = close(world, first, snapshot, FROM_BEHIND);
@@ -148,6 +148,27 @@ fn close(world: &World, row: &Row, snapshot: &Snapshot, from: DVec3) -> Picture 
     camera::ray_cast(&mut world.at(snapshot), &camera, SIZE_CLOSE)
 }
 
+/// Rows spread over the cycles, each a sixth of a cycle further in its own: spread over the time
+/// alone they would show one posture again and again where a crawl has five cycles.
+fn instants(crawl: &Crawl) -> Vec<usize> {
+    let cycles = crawl.rows.last().map_or(0, |last| last.cycle + 1);
+    let of_cycle = |cycle: usize| {
+        let begin = crawl.rows.partition_point(|row| row.cycle < cycle);
+        (begin, crawl.rows.partition_point(|row| row.cycle <= cycle))
+    };
+    let count = INSTANTS.min(crawl.rows.len());
+    let mut instants: Vec<usize> = (0..count)
+        .map(|index| {
+            let cycle = index * cycles.saturating_sub(1) / (count - 1).max(1);
+            let (begin, end) = of_cycle(cycle);
+            begin + index * (end - begin) / count
+        })
+        .collect();
+    instants.sort_unstable();
+    instants.dedup();
+    instants
+}
+
 /// Takes the pictures from the robot's right with a camera that stays where it is; nothing without
 /// rows.
 fn sequence(world: &World, gait: &str, crawl: &Crawl) -> Result<Option<Frames>, FramesError> {
@@ -183,10 +204,8 @@ fn sequence(world: &World, gait: &str, crawl: &Crawl) -> Result<Option<Frames>, 
         reason = "some hundred pixels"
     )]
     let size = (WIDTH, (WIDTH as f64 * HEIGHT / width).round() as usize);
-    let count = INSTANTS.min(crawl.rows.len());
-    let instants: Vec<usize> = (0..count)
-        .map(|index| index * (crawl.rows.len() - 1) / (count - 1).max(1))
-        .collect();
+    let instants = instants(crawl);
+    let count = instants.len();
     let pictures: Vec<Picture> = instants
         .par_iter()
         .map(|&index| camera::ray_cast(&mut world.at(&crawl.snapshots[index]), &camera, size))

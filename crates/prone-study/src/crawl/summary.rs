@@ -27,15 +27,18 @@ pub struct CrawlSummary {
     pub arrived: Option<bool>,
     /// Displacement of the root along the heading of the start, mm.
     pub distance_mm: f64,
+    /// How far it came along its own heading: sum of the cycles' advances, mm. Where it turns, that
+    /// is more than the distance.
+    pub path_mm: f64,
     /// How long it took, settling apart, s.
     pub time_s: f64,
-    /// Distance over cycles, mm.
+    /// Path over cycles, mm.
     pub mm_per_cycle: f64,
     /// What of that the pulls made, mm: mean of the cycles' own advances.
     pub pull_mm_per_cycle: f64,
     /// What the recoveries made, mm.
     pub recovery_mm_per_cycle: f64,
-    /// Distance over time, mm/s.
+    /// Path over time, mm/s.
     pub mm_per_s: f64,
     /// Displacement to the left of the line of the start, mm.
     pub lateral_mm: f64,
@@ -51,7 +54,7 @@ pub struct CrawlSummary {
     pub stride_mm: f64,
     /// Advance of a pull over that stride; nothing where the plan does not lead forward.
     pub pull_efficiency: Option<f64>,
-    /// Distance per cycle over that stride: above 1 where recoveries advance too; nothing where the
+    /// Advance per cycle over that stride: above 1 where recoveries advance too; nothing where the
     /// plan does not lead forward.
     pub stride_efficiency: Option<f64>,
     /// Share of the ground's force on trunk and legs during pulls, mean of the cycles.
@@ -74,15 +77,15 @@ pub struct CrawlSummary {
     pub saturated_joint: Option<String>,
     /// ∫ Σ (τ / nominal torque)² dt, s.
     pub heat_s: f64,
-    /// The same per metre of distance, s/m; nothing where it did not come forward.
+    /// The same per metre of path, s/m; nothing where it did not come forward.
     pub heat_per_metre_s: Option<f64>,
     /// Positive mechanical work of the motors, J.
     pub work_j: f64,
-    /// That work over weight times distance; nothing where it did not come forward.
+    /// That work over weight times path; nothing where it did not come forward.
     pub cost_of_transport: Option<f64>,
     /// What the windings of the motors lost, J: an estimate; nothing where a motor is not known.
     pub winding_loss_j: Option<f64>,
-    /// Work and winding loss over weight times distance: an estimate, in which gears lose nothing
+    /// Work and winding loss over weight times path: an estimate, in which gears lose nothing
     /// and what is braked is not given back.
     pub electrical_cost_of_transport: Option<f64>,
     /// What each motor did.
@@ -179,14 +182,15 @@ pub fn of(
         .last()
         .map_or((0.0, 0.0), |last| (last.x_mm, last.y_mm));
     let cycles = per_cycle.len();
-    let mm_per_cycle = distance_mm / cycles.max(1) as f64;
+    let path_mm = per_cycle.iter().map(|cycle| cycle.advance_mm).sum::<f64>();
+    let mm_per_cycle = path_mm / cycles.max(1) as f64;
     let mean =
         |of: fn(&CycleSummary) -> f64| per_cycle.iter().map(of).sum::<f64>() / cycles.max(1) as f64;
     let pull_mm_per_cycle = mean(|cycle| cycle.pull_advance_mm);
     let of_stride = |advance_mm: f64| (stride_mm > 0.0).then(|| advance_mm / stride_mm);
     let (peak, peak_joint) = crawl.effort.peak_over_limit(robot);
     let (saturated, saturated_joint) = longest_saturated(crawl);
-    let metres = (distance_mm > 0.0).then_some(distance_mm / 1e3);
+    let metres = (path_mm > 0.0).then_some(path_mm / 1e3);
     let (heat_s, work_j) = (crawl.effort.heat(robot), crawl.effort.work());
     let weight = robot.mass() * GRAVITY;
     let joints = joints::of(robot, &crawl.effort);
@@ -202,11 +206,12 @@ pub fn of(
         cycles,
         arrived: until_past.map(|_| crawl.arrived),
         distance_mm,
+        path_mm,
         time_s: crawl.effort.seconds,
         mm_per_cycle,
         pull_mm_per_cycle,
         recovery_mm_per_cycle: mean(|cycle| cycle.advance_mm - cycle.pull_advance_mm),
-        mm_per_s: distance_mm / crawl.effort.seconds,
+        mm_per_s: path_mm / crawl.effort.seconds,
         lateral_mm,
         yaw_deg: per_cycle.iter().map(|cycle| cycle.yaw_deg).sum(),
         plate_contacts: crawl.touches.iter().map(|touch| touch.count).sum(),

@@ -111,6 +111,8 @@ pub struct ConfirmedSetting {
     pub peak_torque_over_rated: Option<f64>,
     /// Whose.
     pub peak_joint: Option<String>,
+    /// Largest torque that a shoulder's servo demands, before the effort limit, N·m.
+    pub demanded_shoulder_nm: Option<f64>,
     /// Advance over the first setting's.
     pub kept: Option<f64>,
     /// Why it cannot be crawled.
@@ -157,6 +159,7 @@ fn row(setting: &Setting, trial: &Trial, kept: f64) -> ConfirmedSetting {
         heat_per_metre_s: Some(trial.heat_per_metre).filter(|heat| heat.is_finite()),
         peak_torque_over_rated: Some(trial.peak_over_limit.0),
         peak_joint: Some(trial.peak_over_limit.1.clone()),
+        demanded_shoulder_nm: Some(trial.demanded_shoulder),
         kept: Some(kept),
         refused: None,
     }
@@ -173,6 +176,7 @@ fn refused(setting: &Setting, reason: String) -> ConfirmedSetting {
         heat_per_metre_s: None,
         peak_torque_over_rated: None,
         peak_joint: None,
+        demanded_shoulder_nm: None,
         kept: None,
         refused: Some(reason),
     }

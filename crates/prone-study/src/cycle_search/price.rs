@@ -2,10 +2,12 @@
 //!
 //! A cycle is crawled in one or more settings (friction, servo, time scale). In the main ones the
 //! value counts: heat per metre, merged over servos ([`Merge`]), advance per cycle, speed, or what a
-//! shoulder's servo demands. In all of them the rules are held: nothing higher than the ceiling,
-//! enough advance, and where [`CycleRules`] ask for them no more of a shoulder's servo, no more
-//! weight on trunk and legs in the pull, no more heat. What is broken adds up, each in shares of its
-//! limit, and compares before the value. The settings are taken in order, and those after one that
+//! shoulder's servo demands. In all but those of [`Role::Beside`] nothing may be higher than the
+//! ceiling and the advance has to be enough; [`CycleRules`] may ask for no more of a shoulder's servo
+//! (with the robot's own gains), no more weight on trunk and legs in the pull (where values count),
+//! no more heat. Limbs are kept apart in the plan, not in what lags behind it. What is broken adds
+//! up, mostly in shares of its limit (stops in rad, limbs in one another in centimetres), and
+//! compares before the value. The settings are taken in order, and those after one that
 //! breaks a rule are not simulated: each counts as [`UNTRIED`].
 
 use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale};
@@ -60,7 +62,7 @@ impl CycleObjective {
 /// How the heats with different servos become one.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Merge {
-    /// Their geometric mean, s/m: with stiff servos it is five times that with soft ones, and a
+    /// Their geometric mean, s/m: with stiff servos it is several times that with soft ones, and a
     /// percent is a percent.
     Mean,
     /// The largest share, each over what another cycle has in that setting; these values, s/m, in

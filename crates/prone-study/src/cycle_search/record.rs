@@ -78,8 +78,11 @@ impl Found {
                 setting,
                 mm_per_cycle: Some(advance),
                 top_mm: Some(top),
+                demanded_shoulder_nm: Some(shoulder),
                 ..
-            } => format!("{setting}: {advance:.1} mm per cycle, {top:.1} mm high."),
+            } => format!(
+                "{setting}: {advance:.1} mm per cycle, {top:.1} mm high, {shoulder:.2} N·m asked of a shoulder."
+            ),
             row => format!(
                 "{}: {}.",
                 row.setting,
@@ -108,6 +111,7 @@ pub fn csv(frontier: &Frontier) -> Result<Vec<u8>, csv::Error> {
         "heat_per_metre_s",
         "peak_torque_over_rated",
         "peak_joint",
+        "demanded_shoulder_nm",
         "kept",
         "refused",
     ])?;
@@ -128,6 +132,7 @@ pub fn csv(frontier: &Frontier) -> Result<Vec<u8>, csv::Error> {
                 maybe(row.heat_per_metre_s, 4),
                 maybe(row.peak_torque_over_rated, 4),
                 row.peak_joint.clone().unwrap_or_default(),
+                maybe(row.demanded_shoulder_nm, 4),
                 maybe(row.kept, 4),
                 row.refused.clone().unwrap_or_default(),
             ])?;

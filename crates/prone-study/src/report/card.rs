@@ -29,7 +29,7 @@ pub struct Card {
     /// Whole cycles.
     pub cycles: usize,
     /// Along the heading of the start, mm.
-    pub distance_mm: f64,
+    pub path_mm: f64,
     /// How long it took, s.
     pub time_s: f64,
     /// Distance over time, mm/s.
@@ -100,7 +100,8 @@ impl Card {
             .zip(tops)
             .max_by(|a, b| a.1.total_cmp(&b.1))
             .unwrap_or(("body", 0.0));
-        let metres = Some(summary.distance_mm / 1e3).filter(|metres| *metres > 0.0);
+        let metres = Some(summary.path_mm / 1e3).filter(|metres| *metres > 0.0);
+        let straight = summary.yaw_deg.abs() < STRAIGHT_DEG;
         let (joints, other_joints_heat_share) = joints(&summary.joints, summary.heat_s);
         let number = |pointer: &str| {
             let found = crawl.folder.run.pointer(pointer);
@@ -117,7 +118,7 @@ impl Card {
                 .unwrap_or_else(|| "not said".to_owned()),
             joint_offset_deg: number("/options/joint_offset_deg").unwrap_or(0.0),
             cycles: summary.cycles,
-            distance_mm: summary.distance_mm,
+            path_mm: summary.path_mm,
             time_s: summary.time_s,
             speed_mm_s: summary.mm_per_s,
             standing_height_mm: standing,
@@ -132,13 +133,18 @@ impl Card {
             cost_of_transport_electrical_estimated: summary.electrical_cost_of_transport,
             heat_mean: summary.heat_s / summary.time_s,
             heat_per_metre_s: summary.heat_per_metre_s,
-            drift_mm_per_m: metres.map(|metres| summary.lateral_mm / metres),
+            drift_mm_per_m: metres
+                .filter(|_| straight)
+                .map(|metres| summary.lateral_mm / metres),
             yaw_deg_per_m: metres.map(|metres| summary.yaw_deg / metres),
             joints,
             other_joints_heat_share,
         }
     }
 }
+
+/// Up to which change of heading what lies beside the line of the start is drift, degrees.
+const STRAIGHT_DEG: f64 = 20.0;
 
 /// The warm ones, and the share of the others.
 fn joints(summaries: &[JointSummary], heat_s: f64) -> (Vec<JointCard>, f64) {

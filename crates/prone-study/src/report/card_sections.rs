@@ -27,12 +27,12 @@ struct Line {
 
 const LINES: [Line; 15] = [
     Line {
-        label: "distance, time",
+        label: "path, time",
         of: |card| {
             let cycles = card.cycles;
             format!(
                 "{:.0} mm, {:.1} s, {cycles} cycles",
-                card.distance_mm, card.time_s
+                card.path_mm, card.time_s
             )
         },
     },
@@ -53,7 +53,7 @@ const LINES: [Line; 15] = [
         of: |card| {
             let pull = optional(card.pull_efficiency, percent);
             let cycle = optional(card.stride_efficiency, percent);
-            format!("{cycle} (pulls alone {pull})")
+            format!("pulls {pull}, whole cycles {cycle}")
         },
     },
     Line {
@@ -84,7 +84,7 @@ const LINES: [Line; 15] = [
         label: "cost of transport, electrical (estimated)",
         of: |card| {
             let estimated = card.cost_of_transport_electrical_estimated;
-            optional(estimated, |value| format!("≈ {value:.1}"))
+            optional(estimated, |value| format!("at least {value:.1}"))
         },
     },
     Line {
@@ -122,16 +122,17 @@ fn figures(cards: &[Card]) -> Markup {
         p {
             "Ours, by simulation in the contact regime locomotion (engine's contacts, the maker's \
              effort and joint limits on); every line is a figure of the crawl's record, or one over \
-             another. A real robot of the same make is slower: the published one made 67 mm a cycle."
+             another. No robot crawled them; the published one made 67 mm a cycle with the original's gait."
         }
         div.scroll { table {
             caption {
-                "Lowest passage: highest point of any part in the whole run. Stride efficiency: advance \
-                 per cycle over the stride of the planned chain. Cost of transport: positive work of \
+                "Path: sum of the cycles' advances, each along its own heading; all rates are over it. \
+                 Lowest passage: highest point of any part in the whole run. Stride efficiency: advance \
+                 of a pull, and of a whole cycle, over the stride of the planned chain. Cost of transport: positive work of \
                  the motors at the joints over weight times distance; electrical adds what the windings \
                  lose, τ² ω₀ / τ_stall from the maker's motor figures, "
                 strong { "an estimate" }
-                " in which gears and drives lose nothing and braking gives nothing back. Heat: \
+                " and a lower bound: gears and drives lose nothing in it, and braking gives nothing back. Heat: \
                  Σ (τ / nominal torque)² over all motors, τ actuator torque; 1 is one motor at its \
                  continuous rating. No thermal model of the motors is in the robot's data, so no \
                  temperature is given. Drift and heading: positive to the left; a symmetric model \
@@ -149,7 +150,7 @@ fn figures(cards: &[Card]) -> Markup {
     }
 }
 
-/// A row per joint that is warm in any crawl, three columns per crawl.
+/// A row per joint that is warm in any crawl, four columns per crawl.
 fn joints(cards: &[Card]) -> Markup {
     let mut rows: Vec<(&str, f64)> = Vec::new();
     for joint in cards.iter().flat_map(|card| &card.joints) {
@@ -162,7 +163,7 @@ fn joints(cards: &[Card]) -> Markup {
             caption {
                 strong { "Motors." }
                 " Actuator torque after the effort limit, over the motor's continuous torque at the \
-                 joint, before gear losses: largest, and root mean square, whose square is the heat of \
+                 joint, lossless gears (real ones ask more of the motor): largest, and root mean square, whose square is the heat of \
                  a winding in units of its rating. Heat: share of all motors'. At the limit: share of the \
                  time in which the servo asked for more than the maker's effort limit. Ours, simulated; \
                  the warmest of the first crawl first; – is less than 1 % of the heat."
