@@ -36,7 +36,9 @@ pub(crate) fn check_place(out: &Path, run: &Path) -> Result<(), Failure> {
             "--out {shown} is a folder: name a file in it"
         )));
     }
-    let folder = match out.parent() {
+    // What is written is what a link leads to.
+    let linked = out.canonicalize().ok();
+    let folder = match linked.as_deref().unwrap_or(out).parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };

@@ -12,7 +12,7 @@ use prone_study::recorded;
 use prone_study::view::{self, record};
 
 use crate::args::ViewArgs;
-use crate::{Failure, record_folder, table_file};
+use crate::{Failure, interrupt, record_folder, table_file};
 
 /// What opens a page in the browser of the user's choice.
 const OPENER: &str = if cfg!(target_os = "macos") {
@@ -22,6 +22,7 @@ const OPENER: &str = if cfg!(target_os = "macos") {
 };
 
 pub(crate) fn run(args: &ViewArgs) -> Result<(), Failure> {
+    interrupt::listen()?;
     let mut runs = Vec::new();
     let folders: Vec<&Path> = [Some(&args.run), args.compare.as_ref()]
         .into_iter()
@@ -48,8 +49,10 @@ pub(crate) fn run(args: &ViewArgs) -> Result<(), Failure> {
     }
     let page = view::page(&runs.iter().collect::<Vec<_>>()).map_err(Failure::work)?;
     let name = out.display();
-    table_file::write(&out, page.as_bytes())
-        .map_err(|error| Failure::Input(anyhow!("cannot write {name}: {error}")))?;
+    interrupt::publish(|| {
+        table_file::write(&out, page.as_bytes())
+            .map_err(|error| Failure::Input(anyhow!("cannot write {name}: {error}")))
+    })?;
     if args.open {
         open(&out)?;
     }
@@ -140,5 +143,9 @@ mod tests {
         assert_eq!(beside(&pull).unwrap(), real.join("v1.2-nominal.html"));
         assert!(record_folder::check_place(&low.join("pulls/a.html"), &pull).is_err());
         assert!(record_folder::check_place(&page, &pull).is_ok());
+        // Nor is a record written over through a link from outside.
+        let link = home.path().join("link.html");
+        std::os::unix::fs::symlink(low.join("run.json"), &link).unwrap();
+        assert!(record_folder::check_place(&link, &pull).is_err());
     }
 }

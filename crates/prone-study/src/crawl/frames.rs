@@ -80,9 +80,8 @@ fn start(world: &World, gait: &str, crawl: &Crawl) -> Result<Option<Frames>, Fra
              100 mm apart, heavy ones 500 mm.",
             first.time
         ),
-        alt:
-            "The simulated robot from its right and behind, prone, legs behind it, arms ahead."
-                .to_owned(),
+        alt: "The simulated robot from its right and behind, prone, legs behind it, arms ahead."
+            .to_owned(),
     };
     let picture = close(world, first, snapshot, FROM_BEHIND);
     Ok(Some(stacked(&[picture], &[String::new()], wording)?))

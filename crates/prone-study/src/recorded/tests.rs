@@ -135,6 +135,12 @@ fn a_row_that_is_missing_or_too_much_is_noticed() {
     let without_first = [lines[0], lines[2], lines[3], ""].join("\n");
     let refused = read(&[(ROWS_FILE, Some(&without_first))]).unwrap_err();
     assert!(matches!(refused, ReadError::NoRows { .. }), "{refused}");
+    // Nothing but headers is no record, though it says so itself.
+    let none = run_json().replace("\"rows\": 3", "\"rows\": 0");
+    assert!(none.contains("\"rows\": 0"), "{none}");
+    let header = format!("{}\n", lines[0]);
+    let refused = read(&[(RUN_FILE, Some(&none)), (ROWS_FILE, Some(&header))]).unwrap_err();
+    assert!(matches!(refused, ReadError::NoRows { .. }), "{refused}");
     let more = format!("{ROWS}{}\n", lines[3].replace("0.0600", "0.0800"));
     let record = of_rows(&more);
     assert_eq!(record.rows.len(), 3);

@@ -111,6 +111,8 @@ impl Folder {
             };
             let folders = entries
                 .filter_map(Result::ok)
+                // Not a link, which may lead back here.
+                .filter(|entry| entry.file_type().is_ok_and(|kind| kind.is_dir()))
                 .filter(|entry| entry.path().join(RUN_FILE).is_file());
             found.extend(
                 folders.map(|entry| format!("{group}/{}", entry.file_name().to_string_lossy())),
