@@ -202,6 +202,12 @@ fn found(quest: &Quest<'_>, searches: &[Search]) -> (Frontier, Vec<Cycle>) {
 }
 
 fn print(frontier: &Frontier, out: &mut impl std::io::Write) -> std::io::Result<()> {
+    if frontier.found.is_empty() {
+        writeln!(
+            out,
+            "no cycle was found that can be crawled: --budget is too small"
+        )?;
+    }
     writeln!(
         out,
         "{:>10}{:>6}{:>14}{:>9}{:>10}{:>12}{:>12}{:>11}  holds",

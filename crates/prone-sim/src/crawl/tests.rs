@@ -48,8 +48,10 @@ fn regression_shipped_cycles_advance_and_repeat_themselves() {
         assert!((highest - top).abs() < 1.0, "{name}: {highest:.1} mm");
         let steady = crawl.cycles[1].advance().forward * 1e3;
         assert!((steady - forward).abs() < 2.0, "{name}: {steady:.1} mm");
-        // Symmetric gait, symmetric robot.
-        assert!(third.advance().yaw.abs() < 0.005, "{name}");
+        // A symmetric gait, and a robot that is symmetric but for 0.18° of its ankles' limits, which
+        // cycles that walk on their knees feel most: half a degree a cycle.
+        let yaw = third.advance().yaw;
+        assert!(yaw.abs() < 0.0087, "{name}: {yaw:.4} rad");
     }
 }
 
