@@ -61,6 +61,13 @@ pub(super) fn report(
     if !outcome.complete {
         writeln!(out, "  stopped by the time budget; --resume goes on")?;
     }
+    if outcome.price.violations > 0.0 {
+        writeln!(
+            out,
+            "\nwhat was found breaks rules of the search, by {:.4}: what it saves is partly that",
+            outcome.price.violations
+        )?;
+    }
     writeln!(out, "\nconfirmed by simulation, found over other")?;
     for verdict in &outcome.verdicts {
         writeln!(out, "  {}", sentence(verdict))?;
