@@ -22,6 +22,7 @@ use crate::{Failure, interrupt, passage};
 
 /// The cycle that a found one is compared with, where the robot can crawl it.
 const COMPARED: &str = "thesis-nominal";
+
 /// Searches, confirms and writes the result.
 pub(super) fn pursue(quest: &mut Quest<'_>) -> Result<(), Failure> {
     interrupt::listen()?;
@@ -166,6 +167,9 @@ fn found(quest: &Quest<'_>, searches: &[Search]) -> (Frontier, Vec<Cycle>) {
                 (None, None) => "open".to_owned(),
             };
             cycle.pull.name = format!("{stem}-seed-{}", run.seed);
+            if cycle.steering.is_some() && !frontier::steers(&quest.steering, &cycle) {
+                cycle.steering = None;
+            }
             let under = job
                 .ceiling_mm
                 .map_or_else(String::new, |mm| format!(" under {mm} mm"));

@@ -182,6 +182,24 @@ fn refused(setting: &Setting, reason: String) -> ConfirmedSetting {
     }
 }
 
+/// Whether a cycle can be steered: its largest command turns it by more than uneven ground and joints
+/// that are off do, in the settings of [`super::settings::for_steering_confirmation`]. A cycle that
+/// was searched for something else has the steering of the one that it was searched about, which may
+/// do nothing in it, or turn it the wrong way.
+pub fn steers(settings: &[Setting], cycle: &Cycle) -> bool {
+    let (mut turned, mut thrown_off) = (f64::NEG_INFINITY, 0.0_f64);
+    for setting in settings {
+        let Ok(trial) = try_out(setting, cycle) else {
+            return false;
+        };
+        match setting.role {
+            Role::Turn(_) => turned = turned.max(trial.yaw),
+            _ => thrown_off = thrown_off.max(trial.yaw.abs()),
+        }
+    }
+    turned > thrown_off
+}
+
 /// The base of a search under a height, m: of the cycles that stay below it, the one that advances
 /// most in the first of the settings; where none does, the lowest.
 ///
@@ -204,4 +222,31 @@ pub fn base<'c>(
     chosen.ok_or_else(|| FrontierError::NoCycle {
         robot: robot.robot().name.clone(),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use prone_files::shipped;
+    use prone_sim::RobotFiles;
+
+    use super::super::settings::for_steering_confirmation;
+    use super::*;
+
+    #[test]
+    fn a_cycle_that_ships_with_steering_can_be_steered() {
+        let robot = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
+        let settings = for_steering_confirmation(&robot).unwrap();
+        let cycle = |name: &str| shipped::cycle(name).unwrap().unwrap();
+        for cycle in shipped::cycle_names().map(cycle) {
+            if cycle.steering.is_some() {
+                assert!(steers(&settings, &cycle), "{}", cycle.pull.name);
+            }
+        }
+        // What would steer another one does not steer this.
+        let borrowed = Cycle {
+            steering: cycle("low-175").steering,
+            ..cycle("far-200")
+        };
+        assert!(!steers(&settings, &borrowed));
+    }
 }
