@@ -15,6 +15,7 @@ pub mod frames;
 pub mod gait_sheet;
 pub mod optimize;
 pub mod output;
+mod page_head;
 pub mod published;
 pub mod record;
 pub mod recorded;

@@ -10,6 +10,7 @@ pub mod record;
 use maud::{DOCTYPE, PreEscaped, html};
 use serde::Serialize;
 
+use crate::page_head;
 use record::Run;
 
 /// The bundle of `viewer/`, which `npm ci && npm run build` there reproduces.
@@ -45,12 +46,7 @@ pub fn page(runs: &[&Run]) -> Result<String, serde_json::Error> {
         (DOCTYPE)
         html lang="en" {
             head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta http-equiv="Content-Security-Policy" content=(POLICY);
-                // Without it a browser asks the server for one.
-                link rel="icon" href="data:,";
-                title { (title) }
+                (page_head::of(&title, POLICY))
             }
             body {
                 div #app {}

@@ -234,3 +234,44 @@ fn sequence(world: &World, gait: &str, crawl: &Crawl) -> Result<Option<Frames>, 
     };
     Ok(Some(stacked(&pictures, &labels, wording)?))
 }
+
+#[cfg(test)]
+mod tests {
+    use prone::gait::cycle::TimeScale;
+    use prone_files::shipped;
+    use prone_sim::crawl::{self, CrawlPlan, Detail, End, Straight};
+    use prone_sim::{LoadedRobot, Regime, RobotFiles};
+
+    use super::*;
+
+    /// Five cycles from end to end, and never the same posture: evenly in time it would be.
+    #[test]
+    fn frames_are_of_different_postures() {
+        let robot = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
+        let world = World::new(&robot, Regime::LOCOMOTION).unwrap();
+        let plan = CrawlPlan {
+            cycles: &[shipped::cycle("low-175").unwrap().unwrap()],
+            scale: TimeScale::ONE,
+            end: End::Cycles(5),
+            offsets: None,
+            detail: Detail::Rows,
+        };
+        let crawl = crawl::run(&world, &plan, &mut Straight { turn: 0.0 }).unwrap();
+        let shown = instants(&crawl);
+        assert_eq!(shown.len(), INSTANTS);
+        let rows: Vec<&Row> = shown.iter().map(|&index| &crawl.rows[index]).collect();
+        assert_eq!((rows[0].cycle, rows[INSTANTS - 1].cycle), (0, 4));
+        for (index, row) in rows.iter().enumerate() {
+            for other in &rows[..index] {
+                let pairs = row.angles.as_slice().iter().zip(other.angles.as_slice());
+                let apart = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+                assert!(
+                    apart > 0.1,
+                    "{} s and {} s: {apart} rad",
+                    row.time,
+                    other.time
+                );
+            }
+        }
+    }
+}

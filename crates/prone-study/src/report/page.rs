@@ -14,6 +14,7 @@ use super::{
     Card, LARGEST_PAGE, ReportError, Run, card_sections, parameter_tables, replay, run_sections,
     sections,
 };
+use crate::page_head;
 
 const STYLE: &str = include_str!("style.css");
 
@@ -49,16 +50,12 @@ impl Page<'_> {
         let replayed = replay
             .as_ref()
             .map_or_else(Vec::new, |replay| replay.shown.clone());
+        let title = format!("prone: report of {}", self.titles().join(", "));
         let page = html! {
             (DOCTYPE)
             html lang="en" {
                 head {
-                    meta charset="utf-8";
-                    meta name="viewport" content="width=device-width, initial-scale=1";
-                    meta http-equiv="Content-Security-Policy" content=(POLICY);
-                    // Without it a browser asks the server for one.
-                    link rel="icon" href="data:,";
-                    title { "prone: report of " (self.titles().join(", ")) }
+                    (page_head::of(&title, POLICY))
                     style { (PreEscaped(STYLE)) }
                 }
                 body {
