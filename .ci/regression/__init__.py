@@ -1,0 +1,1 @@
+"""What the program computes, recorded and compared: see values.py beside this folder."""
