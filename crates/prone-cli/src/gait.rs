@@ -45,7 +45,7 @@ pub(crate) fn find_cycle(name: &str) -> Result<GaitSource, Failure> {
     if let (Some(cycle), Some(text)) = (shipped::cycle(name), shipped::cycle_text(name)) {
         return Ok(GaitSource {
             cycle: cycle.map_err(Failure::input)?,
-            file: format!("gaits/{name}.toml"),
+            file: format!("robots/nao/gaits/{name}.toml"),
             text: text.to_owned(),
         });
     }

@@ -104,7 +104,7 @@ fn gait_files() -> BTreeMap<String, (String, String)> {
         let text = shipped::gait_text(name)?;
         Some((
             name.to_owned(),
-            (format!("gaits/{name}.toml"), text.to_owned()),
+            (format!("robots/nao/gaits/{name}.toml"), text.to_owned()),
         ))
     });
     files.collect()

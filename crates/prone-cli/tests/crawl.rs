@@ -267,7 +267,7 @@ fn limit_a_plan_that_does_not_lead_forward_has_no_efficiency() {
         ("constant_deg = -60", "0.0"),
         ("linear_deg = [-60, -50]", "-"),
     ] {
-        let low = include_str!("../../../gaits/low-175.toml");
+        let low = include_str!("../../../robots/nao/gaits/low-175.toml");
         let text = low.replacen("linear_deg = [-30, -90]", arm, 1);
         assert_ne!(text, low);
         fs::write(&gait, text).unwrap();
@@ -297,7 +297,7 @@ fn what_a_robot_cannot_do_is_said_with_its_line() {
     let home = tempfile::tempdir().unwrap();
     let gait = home.path().join("gait.toml");
     let at = gait.to_str().unwrap();
-    let low = include_str!("../../../gaits/low-175.toml");
+    let low = include_str!("../../../robots/nao/gaits/low-175.toml");
     let cases = [
         (
             "LHipPitch = -25",

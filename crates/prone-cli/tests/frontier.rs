@@ -149,7 +149,7 @@ fn what_fits_and_what_does_not_is_said_with_its_reason() {
     // A user's file does not ship, also where it has the name of one that does.
     let home = tempfile::tempdir().unwrap();
     let gait = home.path().join("mine.toml");
-    let text = include_str!("../../../gaits/thesis-nominal.toml");
+    let text = include_str!("../../../robots/nao/gaits/thesis-nominal.toml");
     fs::write(&gait, format!("{text}\n# mine\n")).unwrap();
     let mine = under("230", &["--gait", gait.to_str().unwrap()]);
     assert_eq!(mine["best"]["gait"], "thesis-nominal");

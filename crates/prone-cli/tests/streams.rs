@@ -5,7 +5,7 @@ use std::io::Read as _;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
-const GAIT: &str = include_str!("../../../gaits/nominal.toml");
+const GAIT: &str = include_str!("../../../robots/nao/gaits/nominal.toml");
 
 fn prone() -> Command {
     Command::new(env!("CARGO_BIN_EXE_prone"))

@@ -19,37 +19,46 @@ pub struct RobotSource {
 
 /// The NAO H25 V4.
 pub const NAO: RobotSource = RobotSource {
-    folder: "robots/nao",
-    toml: include_str!("../../../robots/nao/robot.toml"),
-    mjcf: include_str!("../../../robots/nao/robot.xml"),
+    folder: "robots/nao/v4",
+    toml: include_str!("../../../robots/nao/v4/robot.toml"),
+    mjcf: include_str!("../../../robots/nao/v4/robot.xml"),
 };
 
 /// Names and texts of the gaits that ship with the program: the published ones, then the best that
 /// was found for each objective.
 const GAITS: [(&str, &str); 8] = [
-    ("nominal", include_str!("../../../gaits/nominal.toml")),
-    ("optimal", include_str!("../../../gaits/optimal.toml")),
+    (
+        "nominal",
+        include_str!("../../../robots/nao/gaits/nominal.toml"),
+    ),
+    (
+        "optimal",
+        include_str!("../../../robots/nao/gaits/optimal.toml"),
+    ),
     (
         "least-published",
-        include_str!("../../../gaits/least-published.toml"),
+        include_str!("../../../robots/nao/gaits/least-published.toml"),
     ),
     (
         "least-torque",
-        include_str!("../../../gaits/least-torque.toml"),
+        include_str!("../../../robots/nao/gaits/least-torque.toml"),
     ),
     (
         "least-torque-clamped",
-        include_str!("../../../gaits/least-torque-clamped.toml"),
+        include_str!("../../../robots/nao/gaits/least-torque-clamped.toml"),
     ),
     (
         "least-torque-spline",
-        include_str!("../../../gaits/least-torque-spline.toml"),
+        include_str!("../../../robots/nao/gaits/least-torque-spline.toml"),
     ),
     (
         "least-weighted-torque",
-        include_str!("../../../gaits/least-weighted-torque.toml"),
+        include_str!("../../../robots/nao/gaits/least-weighted-torque.toml"),
     ),
-    ("least-peak", include_str!("../../../gaits/least-peak.toml")),
+    (
+        "least-peak",
+        include_str!("../../../robots/nao/gaits/least-peak.toml"),
+    ),
 ];
 
 /// Names and texts of the cycles that ship with the program: those with the published postures, then
@@ -58,22 +67,52 @@ const GAITS: [(&str, &str); 8] = [
 const CYCLES: [(&str, &str); 12] = [
     (
         "thesis-nominal",
-        include_str!("../../../gaits/thesis-nominal.toml"),
+        include_str!("../../../robots/nao/gaits/thesis-nominal.toml"),
     ),
     (
         "thesis-optimal",
-        include_str!("../../../gaits/thesis-optimal.toml"),
+        include_str!("../../../robots/nao/gaits/thesis-optimal.toml"),
     ),
-    ("low-200", include_str!("../../../gaits/low-200.toml")),
-    ("low-175", include_str!("../../../gaits/low-175.toml")),
-    ("low-165", include_str!("../../../gaits/low-165.toml")),
-    ("hip-10", include_str!("../../../gaits/hip-10.toml")),
-    ("far-200", include_str!("../../../gaits/far-200.toml")),
-    ("far-183", include_str!("../../../gaits/far-183.toml")),
-    ("far-165", include_str!("../../../gaits/far-165.toml")),
-    ("least-heat", include_str!("../../../gaits/least-heat.toml")),
-    ("efficient", include_str!("../../../gaits/efficient.toml")),
-    ("gentle", include_str!("../../../gaits/gentle.toml")),
+    (
+        "low-200",
+        include_str!("../../../robots/nao/gaits/low-200.toml"),
+    ),
+    (
+        "low-175",
+        include_str!("../../../robots/nao/gaits/low-175.toml"),
+    ),
+    (
+        "low-165",
+        include_str!("../../../robots/nao/gaits/low-165.toml"),
+    ),
+    (
+        "hip-10",
+        include_str!("../../../robots/nao/gaits/hip-10.toml"),
+    ),
+    (
+        "far-200",
+        include_str!("../../../robots/nao/gaits/far-200.toml"),
+    ),
+    (
+        "far-183",
+        include_str!("../../../robots/nao/gaits/far-183.toml"),
+    ),
+    (
+        "far-165",
+        include_str!("../../../robots/nao/gaits/far-165.toml"),
+    ),
+    (
+        "least-heat",
+        include_str!("../../../robots/nao/gaits/least-heat.toml"),
+    ),
+    (
+        "efficient",
+        include_str!("../../../robots/nao/gaits/efficient.toml"),
+    ),
+    (
+        "gentle",
+        include_str!("../../../robots/nao/gaits/gentle.toml"),
+    ),
 ];
 
 /// The names that [`cycle`] knows.
@@ -92,7 +131,7 @@ pub fn cycle_text(name: &str) -> Option<&'static str> {
 /// # Errors
 /// [`FileError`] if the embedded text does not parse, which a test excludes.
 pub fn cycle(name: &str) -> Option<Result<Cycle, FileError>> {
-    cycle_text(name).map(|text| cycle_file::parse(&format!("gaits/{name}.toml"), text))
+    cycle_text(name).map(|text| cycle_file::parse(&format!("robots/nao/gaits/{name}.toml"), text))
 }
 
 /// The names that [`gait`] knows.
@@ -111,7 +150,7 @@ pub fn gait_text(name: &str) -> Option<&'static str> {
 /// # Errors
 /// [`FileError`] if the embedded text does not parse, which a test excludes.
 pub fn gait(name: &str) -> Option<Result<Gait, FileError>> {
-    gait_text(name).map(|text| gait_file::parse(&format!("gaits/{name}.toml"), text))
+    gait_text(name).map(|text| gait_file::parse(&format!("robots/nao/gaits/{name}.toml"), text))
 }
 
 /// Names and texts of the scenes that ship with the program.
