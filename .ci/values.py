@@ -16,7 +16,6 @@ wall times, the order of keys, usage that follows an error's message. Standard l
 import argparse
 import fnmatch
 import os
-import signal
 import sys
 from pathlib import Path
 
@@ -28,9 +27,6 @@ from regression.recording import record  # noqa: E402
 
 
 def main():
-    # Begun under `nohup` or in the background signals are ignored, also by the programs that are
-    # begun from here; interrupted cases need them.
-    signal.signal(signal.SIGINT, signal.default_int_handler)
     args = arguments()
     wanted = (lambda name: fnmatch.fnmatchcase(name, args.only)) if args.only else (lambda name: True)
     if args.action == "list":

@@ -16,7 +16,7 @@ INPUTS = "inputs"
 REPOSITORY = Path(__file__).resolve().parents[2]
 GIVEN = Path(__file__).resolve().parent / INPUTS
 # A robot folder that is given by name: the one that ships, as it is in the repository.
-ROBOT = REPOSITORY / "robots" / "nao"
+ROBOT = REPOSITORY / "robots" / "nao" / "v4"
 
 # Commands that work on several threads.
 THREADED = [
@@ -29,6 +29,10 @@ THREADED = [
 
 # No case takes a tenth of it on two cores; one that hangs does not hold up the rest for ever.
 LONGEST_S = 900
+
+# Under `nohup`, and in the background of a script, signals are ignored, and stay so in what is begun
+# there; the program then does not listen for any.
+LISTENING = ["env", "--default-signal=HUP,INT,TERM"]
 
 # Work that is done between the first sign of it and its interruption.
 WORK_S = 0.5
@@ -47,7 +51,7 @@ def record(program, home, cases, threads, jobs):
         raise SystemExit(f"{home} is not empty: a recording is not mixed with an earlier one")
     home.mkdir(parents=True, exist_ok=True)
     shutil.copytree(GIVEN, home / INPUTS)
-    shutil.copytree(ROBOT, home / INPUTS / ROBOT.name)
+    shutil.copytree(ROBOT, home / INPUTS / "nao")
 
     done = {}
     seconds, problems = {}, {}
@@ -122,7 +126,11 @@ def interrupt(command, folder, kept, number):
     """Begins the program, sends it a signal once it is at work, and returns its exit code."""
     before = changed(kept)
     process = subprocess.Popen(
-        command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+        [*LISTENING, *command],
+        cwd=folder,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
     )
     begun = time.monotonic()
     while changed(kept) in (None, before) and process.poll() is None:
