@@ -3,9 +3,11 @@
 //! Nothing here knows a particular robot. `prone-sim` fills [`Robot`] from an MJCF model and a
 //! `robot.toml`. The value is immutable once loaded; algorithms are functions over `&Robot`.
 
+pub mod bounds;
 mod imu;
 mod kinematics;
 mod level;
+mod limbs;
 mod mirror;
 mod shape;
 #[cfg(test)]
@@ -13,6 +15,7 @@ pub(crate) mod testing;
 
 pub use imu::{Imu, SensorNoise};
 pub use kinematics::BodyPoses;
+pub use limbs::{ChainPart, ChainSide, LimbError, check_limbs};
 pub use mirror::{Mirror, Twin};
 pub use shape::{Shape, Solid};
 

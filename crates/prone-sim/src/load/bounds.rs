@@ -1,34 +1,11 @@
-//! Bounds on a robot's numbers: far from any robot, near enough to find a wrong unit.
+//! Whether the engine's compiled model keeps to the bounds on a robot's numbers.
 
 use mujoco_rs::prelude::*;
 
+use prone::robot::bounds::{INERTIA, LENGTH, MASS};
+
 use super::model::label;
 use super::problem::ModelProblem;
-
-/// Largest length and coordinate, m.
-pub(super) const LENGTH: f64 = 10.0;
-/// Largest mass of a body, kg.
-const MASS: f64 = 1e3;
-/// Largest moment of inertia of a body, kg·m²: the largest mass at the largest length.
-const INERTIA: f64 = MASS * LENGTH * LENGTH;
-/// Largest angle of a posture, an offset or a moved stop, rad: a turn.
-pub(super) const ANGLE: f64 = std::f64::consts::TAU;
-/// Largest effort limit of a joint, N·m.
-pub(super) const EFFORT: f64 = 1e3;
-/// Largest speed limit of a joint, rad/s.
-pub(super) const SPEED: f64 = 1e3;
-/// Largest velocity gain of a servo, N·m·s/rad.
-pub(super) const GAIN: f64 = 1e4;
-/// Largest gear ratio.
-pub(super) const RATIO: f64 = 1e5;
-/// Largest noise and bias of an accelerometer, m/s²: what a saturated part reads, 10 g.
-pub(super) const ACCELERATION: f64 = 100.0;
-/// Largest noise and bias of a gyroscope, rad/s.
-pub(super) const TURN_RATE: f64 = 10.0;
-/// Largest torque of a motor at its shaft, N·m.
-pub(super) const SHAFT_TORQUE: f64 = 1e3;
-/// Largest speed of a motor's shaft, turns per minute.
-pub(super) const SHAFT_SPEED: f64 = 1e6;
 
 /// Checks lengths, masses and inertias of a compiled model.
 pub(super) fn check(model: &MjModel) -> Result<(), ModelProblem> {

@@ -1,11 +1,10 @@
 //! The inertial unit: `[imu]` of `robot.toml` with the sensors of the model.
 
 use prone::frames::Transform;
-use prone::robot::{BodyId, Imu, SensorNoise};
+use prone::robot::{BodyId, Imu, SensorNoise, bounds};
 use prone_files::FileError;
 use prone_files::robot_file::{ImuTable, Name};
 
-use super::bounds;
 use super::model::Parts;
 use super::tables::Tables;
 

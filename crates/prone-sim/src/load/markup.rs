@@ -6,6 +6,7 @@
 
 use roxmltree::{Attribute, Document, Node, TextPos};
 
+use prone::robot::bounds;
 use prone_files::FileError;
 
 /// Elements of a model.
@@ -76,10 +77,6 @@ const NAMES: [&str; 16] = [
 /// a sensor is memory (a history of samples), or what the program adds (noise).
 const SENSORS: [&str; 2] = ["accelerometer", "gyro"];
 const SENSOR_ATTRIBUTES: [&str; 2] = ["name", "site"];
-
-/// Largest number in a model. Units differ, so this is no physical bound: those are checked on
-/// what the engine makes of the text.
-const LARGEST_NUMBER: f64 = 1e9;
 
 /// Checks elements, file references and numbers; `file` is the name that errors carry.
 pub(super) fn check(file: &str, text: &str) -> Result<(), FileError> {
@@ -166,10 +163,12 @@ fn check_attribute(attribute: &Attribute) -> Result<(), String> {
         .split_whitespace()
         .map_while(|word| word.parse::<f64>().ok())
     {
-        // A NaN is in no range.
-        if !(-LARGEST_NUMBER..=LARGEST_NUMBER).contains(&number) {
+        // Units differ, so this is no physical bound: those are checked on what the engine makes of
+        // the text. A NaN is in no range.
+        let largest = bounds::NUMBER;
+        if !(-largest..=largest).contains(&number) {
             return Err(format!(
-                "{name}: {number} is outside -{LARGEST_NUMBER:e}..{LARGEST_NUMBER:e}"
+                "{name}: {number} is outside -{largest:e}..{largest:e}"
             ));
         }
     }

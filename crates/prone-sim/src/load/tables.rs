@@ -12,7 +12,7 @@ use prone::frames::{Link, Point};
 use prone::mapping::{self, MappingError};
 use prone::robot::{
     BodyId, ChainLayout, ContactGroup, FixedArm, JointAngles, JointId, Motor, PublishedChain,
-    Range, Robot, SideLayout, StudySetup,
+    Range, Robot, SideLayout, StudySetup, bounds,
 };
 use prone_files::FileError;
 use prone_files::robot_file::{
@@ -21,7 +21,7 @@ use prone_files::robot_file::{
 };
 
 use super::model::Parts;
-use super::{bounds, imu, limbs};
+use super::{imu, limbs};
 
 /// The TOML file that errors point into, and the model's name for their text.
 pub(super) struct Tables<'a> {
@@ -313,8 +313,7 @@ impl Tables<'_> {
 
     fn side(&self, table: &SideTable, parts: &Parts) -> Result<SideLayout, FileError> {
         let direction = DVec3::from_array(table.forearm_direction);
-        // 1e-6: a unit vector typed with six digits.
-        let is_unit = (direction.length() - 1.0).abs() < 1e-6;
+        let is_unit = (direction.length() - 1.0).abs() < bounds::UNIT;
         if !is_unit {
             let message = format!("forearm_direction {direction} is not a unit vector");
             return Err(self.error(&table.elbow, message));

@@ -1,0 +1,32 @@
+//! Bounds on a robot's numbers: far from any robot, near enough to find a wrong unit.
+//!
+//! Whatever makes a [`super::Robot`] of a file keeps to them.
+
+/// Largest length and coordinate, m.
+pub const LENGTH: f64 = 10.0;
+/// Largest mass of a body, kg.
+pub const MASS: f64 = 1e3;
+/// Largest moment of inertia of a body, kg·m²: the largest mass at the largest length.
+pub const INERTIA: f64 = MASS * LENGTH * LENGTH;
+/// Largest angle of a posture, an offset or a moved stop, rad: a turn.
+pub const ANGLE: f64 = std::f64::consts::TAU;
+/// Largest effort limit of a joint, N·m.
+pub const EFFORT: f64 = 1e3;
+/// Largest speed limit of a joint, rad/s.
+pub const SPEED: f64 = 1e3;
+/// Largest velocity gain of a servo, N·m·s/rad.
+pub const GAIN: f64 = 1e4;
+/// Largest gear ratio.
+pub const RATIO: f64 = 1e5;
+/// Largest noise and bias of an accelerometer, m/s²: what a saturated part reads, 10 g.
+pub const ACCELERATION: f64 = 100.0;
+/// Largest noise and bias of a gyroscope, rad/s.
+pub const TURN_RATE: f64 = 10.0;
+/// Largest torque of a motor at its shaft, N·m.
+pub const SHAFT_TORQUE: f64 = 1e3;
+/// Largest speed of a motor's shaft, turns per minute.
+pub const SHAFT_SPEED: f64 = 1e6;
+/// How far the length of a unit vector or quaternion may be from one: what six digits leave over.
+pub const UNIT: f64 = 1e-6;
+/// Largest number in a model's text, whatever its unit, and so the largest stop of a joint.
+pub const NUMBER: f64 = 1e9;
