@@ -267,15 +267,13 @@ fn bullet_reads_the_robot() {
         prone_sim::LoadedRobot::load(prone_sim::RobotFiles::shipped(&prone_files::shipped::NAO));
     let shipped = shipped.unwrap();
     let robot = shipped.robot();
-    let posture: Vec<f64> = robot
-        .joints
-        .iter()
-        .map(|joint| angles[joint.name.as_str()])
-        .collect();
+    let posture = prone::robot::JointAngles::from_fn(robot.joints.len(), |joint| {
+        angles[robot.joints[joint.0].name.as_str()]
+    });
     let root = prone::frames::Transform::<prone::frames::Ground, prone::frames::Root>::translation(
         glam::DVec3::ZERO,
     );
-    let poses = robot.forward_kinematics(root, &prone::robot::JointAngles::from_vec(posture));
+    let poses = robot.forward_kinematics(root, &posture);
     for joint in joints {
         let known = robot.joint(joint["name"].as_str().unwrap()).unwrap();
         let known = &robot.joints[known.0];

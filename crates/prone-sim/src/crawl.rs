@@ -340,16 +340,11 @@ fn off_by(world: &World, plan: &CrawlPlan<'_>, command: JointAngles) -> JointAng
     let Some(offsets) = &plan.offsets else {
         return command;
     };
-    let joints = command
-        .as_slice()
-        .iter()
-        .zip(offsets.as_slice())
-        .zip(world.stops());
-    JointAngles::from_vec(
-        joints
-            .map(|((angle, offset), stop)| (angle + offset).clamp(stop.lower, stop.upper))
-            .collect(),
-    )
+    let stops = world.stops();
+    command.map(|joint, angle| {
+        let stop = stops[joint.0];
+        (angle + offsets[joint]).clamp(stop.lower, stop.upper)
+    })
 }
 
 struct Crawler<'a, 'w> {

@@ -71,22 +71,17 @@ impl<'w> Simulation<'w> {
     pub fn new(world: &'w World, placement: &Placement) -> Self {
         let mut data = MjData::new(Arc::clone(&world.model));
         let robot = world.robot();
-        let angles: Vec<f64> = placement
+        let stops = world.stops();
+        let angles = placement
             .posture
-            .as_slice()
-            .iter()
-            .zip(world.stops())
-            .map(|(angle, stop)| angle.clamp(stop.lower, stop.upper))
-            .collect();
+            .map(|joint, angle| angle.clamp(stops[joint.0].lower, stops[joint.0].upper));
         let turn = DQuat::from_rotation_y(placement.pitch);
-        let poses = robot.forward_kinematics(
-            Transform::<Ground, Root>::new(turn, DVec3::ZERO),
-            &JointAngles::from_vec(angles.clone()),
-        );
+        let poses =
+            robot.forward_kinematics(Transform::<Ground, Root>::new(turn, DVec3::ZERO), &angles);
         let height = -robot.bottom(&poses, |_| true);
         let qpos = data.qpos_mut();
         qpos[..FREE_JOINT].copy_from_slice(&[0.0, 0.0, height, turn.w, turn.x, turn.y, turn.z]);
-        qpos[FREE_JOINT..].copy_from_slice(&angles);
+        qpos[FREE_JOINT..].copy_from_slice(angles.as_slice());
         data.forward();
         let gain = |joint: &Joint| match world.regime().servo {
             Servo::Robot => joint.servo_gain,
@@ -96,9 +91,9 @@ impl<'w> Simulation<'w> {
         Self {
             world,
             data,
-            demanded: vec![0.0; angles.len()],
+            demanded: vec![0.0; robot.joints.len()],
             gains,
-            reference: angles,
+            reference: angles.as_slice().to_vec(),
             steps: 0,
         }
     }
@@ -218,7 +213,7 @@ impl<'w> Simulation<'w> {
 
     /// Joint angles now, rad.
     pub fn joint_angles(&self) -> JointAngles {
-        JointAngles::from_vec(self.data.qpos()[FREE_JOINT..].to_vec())
+        posture(self.robot(), self.data.qpos())
     }
 
     /// One joint's angle now, rad.
@@ -315,6 +310,12 @@ fn root_pose(qpos: &[f64]) -> Transform<Ground, Root> {
     )
 }
 
+/// The joint angles of a position in the engine, after those of the free root.
+fn posture(robot: &Robot, qpos: &[f64]) -> JointAngles {
+    let angles = &qpos[FREE_JOINT..];
+    JointAngles::from_fn(robot.joints.len(), |joint| angles[joint.0])
+}
+
 impl Snapshot {
     /// A position that was recorded.
     pub fn new(ground_from_root: Transform<Ground, Root>, angles: &JointAngles) -> Self {
@@ -327,9 +328,8 @@ impl Snapshot {
         Self(position)
     }
 
-    fn parts(&self) -> (Transform<Ground, Root>, JointAngles) {
-        let angles = JointAngles::from_vec(self.0[FREE_JOINT..].to_vec());
-        (root_pose(&self.0), angles)
+    fn parts(&self, robot: &Robot) -> (Transform<Ground, Root>, JointAngles) {
+        (root_pose(&self.0), posture(robot, &self.0))
     }
 }
 
@@ -345,7 +345,7 @@ const fn group_index(group: ContactGroup) -> usize {
 impl World {
     /// Centre of mass of the robot at a snapshot.
     pub fn centre_of_mass(&self, snapshot: &Snapshot) -> Point<Ground> {
-        let (ground_from_root, angles) = snapshot.parts();
+        let (ground_from_root, angles) = snapshot.parts(self.robot());
         let poses = self.robot().forward_kinematics(ground_from_root, &angles);
         self.robot().centre_of_mass(&poses)
     }

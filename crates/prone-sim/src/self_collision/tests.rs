@@ -255,7 +255,7 @@ fn limit_what_is_no_posture_is_refused() {
         check.closest(&bad).unwrap_err().to_string(),
         "LKneePitch NaN rad at posture 0 is no angle"
     );
-    let short = JointAngles::from_vec(vec![0.0; 3]);
+    let short = JointAngles::from_fn(3, |_| 0.0);
     assert_eq!(
         check.closest(&short).unwrap_err().to_string(),
         "posture 0 has 3 joint angles, robot NAO H25 V4 has 24 joints"

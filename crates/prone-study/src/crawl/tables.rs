@@ -171,9 +171,9 @@ pub(super) fn rows(
         let (dx, dy) = (at.x - start.x, at.y - start.y);
         cells.push(number(bearing(&root).yaw.to_degrees(), 4));
         cells.push(number((cos * dy - sin * dx) * 1e3, 3));
-        let angles = row.command.as_slice().iter().zip(row.angles.as_slice());
+        let angles = row.command.pairs(row.angles);
         for ((command, angle), torque) in angles.zip(row.actuator_torque) {
-            cells.extend([number(*command, 6), number(*angle, 6), number(*torque, 5)]);
+            cells.extend([number(command, 6), number(angle, 6), number(*torque, 5)]);
         }
         cells.extend(row.contact.map(|force| number(force, 4)));
         cells.extend(row.tops.0.map(|top| number(top * 1e3, 3)));

@@ -176,8 +176,7 @@ impl Course<'_> {
             let share = (tick - from) as f64 / (to - from) as f64;
             let line = first.towards(&last, share);
             let now = self.at(tick);
-            let pairs = line.as_slice().iter().zip(now.as_slice());
-            pairs
+            line.pairs(&now)
                 .map(|(line, now)| (line - now).abs())
                 .fold(0.0, f64::max)
         };

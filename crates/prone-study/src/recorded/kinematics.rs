@@ -15,8 +15,8 @@ impl Recorded {
             let before = &self.rows[index.saturating_sub(1)];
             let after = &self.rows[(index + 1).min(last)];
             let seconds = after.time_s - before.time_s;
-            let pairs = before.angles.as_slice().iter().zip(after.angles.as_slice());
-            let speed = |(from, to): (&f64, &f64)| {
+            let pairs = before.angles.pairs(&after.angles);
+            let speed = |(from, to): (f64, f64)| {
                 // A record of one row does not tell a speed.
                 if seconds > 0.0 {
                     (to - from) / seconds

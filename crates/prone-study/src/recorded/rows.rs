@@ -69,17 +69,18 @@ impl Places {
         if (length - 1.0).abs() > UNIT {
             return Err(Damage::Turn { length });
         }
-        let list = |columns: &[usize]| -> Result<Vec<f64>, Damage> {
-            let numbers = columns.iter().map(|&column| cells.numbers([column]));
-            numbers.map(|number| Ok(number?[0])).collect()
+        let number = |column: usize| Ok(cells.numbers([column])?[0]);
+        let posture = |columns: &[usize]| -> Result<JointAngles, Damage> {
+            JointAngles::try_from_fn(columns.len(), |joint| number(columns[joint.0]))
         };
+        let torques: Result<_, Damage> = self.torques.iter().map(|&at| number(at)).collect();
         Ok(RecordedRow {
             time_s,
             cycle: cells.count(self.cycle)?,
             ground_from_root: Transform::new(turn.normalize(), DVec3::new(x, y, z) / 1e3),
-            command: JointAngles::from_vec(list(&self.commands)?),
-            angles: JointAngles::from_vec(list(&self.angles)?),
-            actuator_torque_nm: list(&self.torques)?,
+            command: posture(&self.commands)?,
+            angles: posture(&self.angles)?,
+            actuator_torque_nm: torques?,
             ground_n: cells.numbers(self.ground)?,
         })
     }

@@ -94,8 +94,12 @@ impl Violations {
     }
 
     /// Adds (7) for each joint that lies outside its stops; angles and stops are by joint of the
-    /// robot, rad.
+    /// robot, rad. A posture that has not one stop for each joint is held by none: that counts as
+    /// not a number.
     pub fn add_limits(&mut self, angles: &[f64], stops: &[Range]) {
+        if angles.len() != stops.len() {
+            self.add(Rule::Limits, f64::NAN);
+        }
         for (&angle, stop) in angles.iter().zip(stops) {
             let excess = stop.excess(angle).abs() / (stop.upper - stop.lower);
             self.add(Rule::Limits, excess);

@@ -96,6 +96,18 @@ pub enum TrajectoryError {
     /// The gait's mapping does not fit the robot.
     #[error(transparent)]
     Mapping(#[from] MappingError),
+    /// The stops are those of another robot.
+    #[error("gait {gait}: {stops} stops are given, robot {robot} has {joints} joints")]
+    Stops {
+        /// The gait's name.
+        gait: String,
+        /// How many stops there are.
+        stops: usize,
+        /// The robot's name.
+        robot: String,
+        /// How many joints it has.
+        joints: usize,
+    },
     /// The chain does not close somewhere.
     #[error("gait {gait}, sample {sample} (s = {s:.3}): {source}")]
     Closure {
@@ -190,6 +202,14 @@ impl CheckedTrajectory {
         intervals: usize,
         company: impl Fn(f64) -> Company,
     ) -> Result<Self, TrajectoryError> {
+        if stops.len() != robot.joints.len() {
+            return Err(TrajectoryError::Stops {
+                gait: gait.name.clone(),
+                stops: stops.len(),
+                robot: robot.name.clone(),
+                joints: robot.joints.len(),
+            });
+        }
         let mapping = Mapping::new(robot, gait.mapping, gait.arm)?;
         let intervals = intervals.max(1);
         let mut samples = Vec::with_capacity(intervals + 1);

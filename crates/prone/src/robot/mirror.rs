@@ -109,8 +109,7 @@ mod tests {
         for (left, right) in pairs.zip(chain.right.commanded_joints()) {
             assert_eq!(mirror.twin(left).unwrap().joint, right);
         }
-        let angles = (0..robot.joints.len()).map(|k| 0.1 * k as f64).collect();
-        let posture = JointAngles::from_vec(angles);
+        let posture = JointAngles::from_fn(robot.joints.len(), |joint| 0.1 * joint.0 as f64);
         assert_eq!(mirror.posture(&mirror.posture(&posture)), posture);
     }
 
@@ -120,10 +119,8 @@ mod tests {
         let robot = testing::two_armed();
         let mirror = Mirror::of(&robot);
         let root = Transform::<Root, Root>::translation(DVec3::ZERO);
-        let angles = (0..robot.joints.len())
-            .map(|k| 0.3 - 0.07 * k as f64)
-            .collect();
-        let posture = JointAngles::from_vec(angles);
+        let angle = |joint: JointId| 0.3 - 0.07 * joint.0 as f64;
+        let posture = JointAngles::from_fn(robot.joints.len(), angle);
         let poses = robot.forward_kinematics(root, &posture);
         let images = robot.forward_kinematics(root, &mirror.posture(&posture));
         for (index, joint) in robot.joints.iter().enumerate() {

@@ -29,6 +29,16 @@ pub enum StaticsError {
     /// The pose has no rest.
     #[error(transparent)]
     Rest(#[from] RestError),
+    /// The stops are those of another robot.
+    #[error("{stops} stops are given, robot {robot} has {joints} joints")]
+    Stops {
+        /// How many stops there are.
+        stops: usize,
+        /// The robot's name.
+        robot: String,
+        /// How many joints it has.
+        joints: usize,
+    },
 }
 
 impl<'r> StaticTorques<'r> {
@@ -61,9 +71,18 @@ impl<'r> StaticTorques<'r> {
             .mapping
             .joint_angles(self.robot, &chain)
             .map_err(|error| source(error.into()))?;
-        let within = joints.as_slice().iter().zip(&self.stops);
-        let clamped = within.map(|(angle, stop)| angle.clamp(stop.lower, stop.upper));
-        Ok(JointAngles::from_vec(clamped.collect()))
+        let (stops, count) = (self.stops.len(), joints.as_slice().len());
+        if stops != count {
+            return Err(source(StaticsError::Stops {
+                stops,
+                robot: self.robot.name.clone(),
+                joints: count,
+            }));
+        }
+        Ok(joints.map(|joint, angle| {
+            let stop = self.stops[joint.0];
+            angle.clamp(stop.lower, stop.upper)
+        }))
     }
 
     /// All that is known of a posture at rest.

@@ -102,8 +102,18 @@ impl CheckedCycle {
     /// robot and stops, has ended.
     ///
     /// # Errors
-    /// [`CycleError::Speed`] where a joint would have to be too fast.
+    /// [`CycleError::Speed`] where a joint would have to be too fast, [`CycleError::OtherRobot`]
+    /// where the robots have not equally many joints.
     pub fn recovery_after(&self, previous: &Self) -> Result<RecoveryPath, CycleError> {
+        let (joints, others) = (self.speed_limits.len(), previous.speed_limits.len());
+        if joints != others {
+            return Err(CycleError::OtherRobot {
+                cycle: self.name.clone(),
+                joints,
+                previous: previous.name.clone(),
+                others,
+            });
+        }
         let path = self.path(previous);
         self.recovery_speed(&path)?;
         Ok(path)
@@ -113,20 +123,15 @@ impl CheckedCycle {
         let from = previous.compression().clone();
         let mut posture = from.clone();
         let legs = self.stretches.iter().enumerate().map(|(index, stretch)| {
-            let angles = stretch
-                .targets
-                .iter()
-                .enumerate()
-                .map(|(joint, to)| match to {
-                    None => posture.as_slice()[joint],
-                    // At the first waypoint the arms are still planted where the last turn has put them.
-                    Some(to) if index == 0 && self.stretches.len() > 1 => {
-                        let stop = self.stops[joint];
-                        (to + previous.aside[joint]).clamp(stop.lower, stop.upper)
-                    }
-                    Some(to) => *to,
-                });
-            posture = JointAngles::from_vec(angles.collect());
+            posture = posture.map(|joint, now| match stretch.targets[joint.0] {
+                None => now,
+                // At the first waypoint the arms are still planted where the last turn has put them.
+                Some(to) if index == 0 && self.stretches.len() > 1 => {
+                    let stop = self.stops[joint.0];
+                    (to + previous.aside[joint.0]).clamp(stop.lower, stop.upper)
+                }
+                Some(to) => to,
+            });
             (stretch.approach, posture.clone())
         });
         let legs = legs.collect();
@@ -148,8 +153,8 @@ impl CheckedCycle {
         let step = self.pull.duration().seconds() / (samples.len() - 1) as f64;
         let mut fastest = vec![0.0_f64; self.speed_limits.len()];
         for pair in samples.windows(2) {
-            let (from, to) = (pair[0].joints.as_slice(), pair[1].joints.as_slice());
-            for ((fastest, from), to) in fastest.iter_mut().zip(from).zip(to) {
+            let ways = pair[0].joints.pairs(&pair[1].joints);
+            for (fastest, (from, to)) in fastest.iter_mut().zip(ways) {
                 *fastest = fastest.max((to - from).abs() / step);
             }
         }
@@ -161,7 +166,7 @@ impl CheckedCycle {
         let mut from = &path.from;
         for (stretch, (approach, to)) in self.stretches.iter().zip(&path.legs) {
             let mean = approach.easing.peak_speed() / approach.seconds;
-            let ways = from.as_slice().iter().zip(to.as_slice());
+            let ways = from.pairs(to);
             let speeds: Vec<f64> = ways.map(|(from, to)| mean * (to - from).abs()).collect();
             let fastest = self.within_speeds(&stretch.name, &speeds)?;
             if fastest.share() > nearest.share() {
@@ -181,9 +186,11 @@ impl CheckedCycle {
                 speed,
                 limit: *limit,
             })
-            .max_by(|a, b| a.share().total_cmp(&b.share()));
+            // NaN of either sign is above all numbers.
+            .max_by(|a, b| a.share().abs().total_cmp(&b.share().abs()));
         let fastest = fastest.unwrap_or_else(|| self.fastest.clone());
-        if fastest.share() > 1.0 {
+        let within = fastest.share() <= 1.0;
+        if !within {
             return Err(CycleError::Speed {
                 cycle: self.name.clone(),
                 place: place.to_owned(),

@@ -96,15 +96,30 @@ pub enum CycleError {
         /// The maker's limit, rad/s.
         limit: f64,
     },
+    /// The pull before it was planned for another robot.
+    #[error(
+        "cycle {cycle} is planned for a robot of {joints} joints, and {previous} before it for one of {others}"
+    )]
+    OtherRobot {
+        /// The cycle's name.
+        cycle: String,
+        /// How many joints its robot has.
+        joints: usize,
+        /// The name of the cycle whose pull is before it.
+        previous: String,
+        /// How many joints that one's robot has.
+        others: usize,
+    },
 }
 
 impl CycleError {
     /// Which part of the cycle it is about: `pull`, `steering`, `extension` for the approach to it,
-    /// or a waypoint by its name.
+    /// `recovery` for all of it, or a waypoint by its name.
     pub fn place(&self) -> &str {
         match self {
             Self::Pull(_) | Self::Duration { .. } => "pull",
             Self::Turn { .. } => "steering",
+            Self::OtherRobot { .. } => "recovery",
             Self::UnknownJoint { place, .. }
             | Self::ChainJoint { place, .. }
             | Self::Seconds { place, .. }

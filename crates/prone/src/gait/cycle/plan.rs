@@ -163,15 +163,12 @@ impl Planner<'_> {
         duration: PhaseDuration,
         turn: f64,
     ) -> Result<Vec<f64>, CycleError> {
-        let mut aside = vec![0.0; self.robot.joints.len()];
         if turn == 0.0 {
-            return Ok(aside);
+            return Ok(vec![0.0; self.robot.joints.len()]);
         }
         let straight = self.pull(duration, 0.0)?;
-        let pairs = last(pull).as_slice().iter().zip(last(&straight).as_slice());
-        for (aside, (turned, straight)) in aside.iter_mut().zip(pairs) {
-            *aside = turned - straight;
-        }
+        let pairs = last(pull).pairs(last(&straight));
+        let mut aside: Vec<f64> = pairs.map(|(turned, straight)| turned - straight).collect();
         if let Some(steering) = &self.cycle.steering {
             for name in steering.joints.keys() {
                 aside[self.joint("steering", name)?.0] = 0.0;
