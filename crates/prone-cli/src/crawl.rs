@@ -9,8 +9,9 @@ use std::time::Instant;
 use anyhow::anyhow;
 use serde_json::json;
 
+use prone::crawl::CrawlerError;
 use prone_sim::World;
-use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, Decision, Detail, Moment, Pilot};
+use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, Detail};
 use prone_study::crawl::record::{self, Recording};
 use prone_study::crawl::{CrawlSummary, summary};
 use prone_study::output;
@@ -74,47 +75,36 @@ fn crawl_run(args: &CrawlRunArgs) -> Result<(), Failure> {
 }
 
 fn simulate(plan: &Plan, args: &CrawlRunArgs) -> Result<Crawl, Failure> {
-    let cycles = plan.cycles();
     let crawl_plan = CrawlPlan {
-        cycles: &cycles,
+        cycles: plan.cycles(),
         scale: args.time_scale,
         end: plan.end,
         offsets: plan.offsets.clone(),
+        imu_seed: plan.imu_seed,
         detail: if args.record.is_some() {
             Detail::Rows
         } else {
             Detail::Sums
         },
     };
-    let mut pilot = Interruptible(plan.pilot());
-    crawl::run(&plan.world, &crawl_plan, &mut pilot).map_err(|error| plan.failure(error))
+    let crawl = crawl::run_unless(
+        &interrupt::requested,
+        &plan.world,
+        &crawl_plan,
+        plan.pilot(),
+    );
+    crawl.map_err(|error| plan.failure(error))
 }
 
 /// A cycle that the robot cannot follow is wrong input, a diverging simulation is not.
 pub(crate) fn failure(error: CrawlError) -> Failure {
     match error {
         CrawlError::Stopped => Failure::Stopped,
-        CrawlError::Cycle(_)
-        | CrawlError::Mapping(_)
-        | CrawlError::Limbs { .. }
-        | CrawlError::SelfCollision(_) => Failure::input(error),
-        CrawlError::NoCycle { .. } | CrawlError::Simulation { .. } => Failure::work(error),
-    }
-}
-
-/// A pilot that ends the crawl between two cycles when the user asks for it.
-struct Interruptible(Box<dyn Pilot>);
-
-impl Pilot for Interruptible {
-    fn decide(&mut self, now: &Moment<'_, '_>) -> Result<Decision, CrawlError> {
-        if interrupt::requested() {
-            return Err(CrawlError::Stopped);
+        CrawlError::Crawler(CrawlerError::Cycle { .. } | CrawlerError::Mapping { .. })
+        | CrawlError::Imu(_) => Failure::input(error),
+        CrawlError::Crawler(_) | CrawlError::Timing(_) | CrawlError::Simulation { .. } => {
+            Failure::work(error)
         }
-        self.0.decide(now)
-    }
-
-    fn sense(&mut self, now: &Moment<'_, '_>) {
-        self.0.sense(now);
     }
 }
 

@@ -13,8 +13,8 @@ use prone_sim::LoadedRobot;
 use prone_study::cycle_search::frontier::{self, Hunt};
 use prone_study::cycle_search::passage::too_low;
 use prone_study::cycle_search::price::{Aim, CycleObjective, CycleRules, Merge};
+use prone_study::cycle_search::setting::Setting;
 use prone_study::cycle_search::settings;
-use prone_study::cycle_search::trial::Setting;
 
 use crate::args::optimize::{OptimizeArgs, SolverName};
 use crate::args::passage::{AgainstName, FrontierArgs};

@@ -11,8 +11,8 @@ use prone_sim::LoadedRobot;
 use prone_study::cycle_search::frontier::{self, Hunt};
 use prone_study::cycle_search::passage::{Passage, Tried};
 use prone_study::cycle_search::price::{Aim, CycleObjective, Merge};
+use prone_study::cycle_search::setting::Setting;
 use prone_study::cycle_search::settings;
-use prone_study::cycle_search::trial::Setting;
 use prone_study::optimize::search::{Search, SearchEnd};
 
 use crate::args::passage::UnderArgs;

@@ -24,7 +24,7 @@ fn world() -> &'static World {
 }
 
 /// The robot lying on its belly for two seconds.
-fn settled() -> Simulation<'static> {
+fn settled() -> Simulation {
     let posture = world().robot().postures["recorded-start"].clone();
     let mut simulation = Simulation::new(
         world(),

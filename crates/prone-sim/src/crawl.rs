@@ -1,34 +1,35 @@
 //! Whole crawl cycles in simulation: pull, recovery, pull, until a number of cycles is done or the
 //! robot is past an obstacle.
 //!
-//! The robot begins in the first pull's extension, settled, with its foremost point at x = 0. What
-//! it commands are the postures of [`CheckedCycle`]s: every [`COMMAND_STEP`] the one that is to be
-//! reached when the next command comes, held until then. At the end of each pull a [`Pilot`] says which cycle comes next and how it
-//! turns; the recovery then leads to that cycle's extension.
+//! What is commanded is the business of [`prone::crawl::Crawler`]; this module lays the robot down,
+//! lets the simulation take the crawler's commands, and measures. [`run`] does all of it: the robot
+//! begins in the first pull's extension, settled, with its foremost point at x = 0. A crawl that
+//! follows something, or is followed by something, is [`crawler`], [`lie_down`] where the robot does
+//! not lie yet, and [`proceed`], which hands the robot back.
 
 mod effort;
+mod limbs;
 mod measure;
-mod pilot;
-mod slope;
-mod tops;
 mod touch;
 
 pub use effort::{Effort, JointEffort};
+pub use limbs::{LimbsError, check_limbs};
 pub use measure::{Advance, CycleRow, Row};
-pub use pilot::{
-    Bearing, BearingSource, Decision, Exact, HoldHeading, HoldLine, Moment, Pilot, Stage, Straight,
-    bearing,
-};
-pub use slope::SlopeAware;
-pub use tops::{BodyPart, Tops};
 pub use touch::Touch;
 
-use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale};
-use prone::mapping::{Mapping, MappingError};
-use prone::robot::JointAngles;
+use glam::DVec3;
 
+use prone::crawl::{
+    Begin, Crawler, CrawlerError, Delivery, DriveError, Event, FirstPose, Halt, PhaseKind, Pilot,
+    Program, Timing, TimingError, Watch, drive,
+};
+use prone::gait::cycle::{Cycle, TimeScale};
+use prone::port::{Command as _, JointCommand, Pace as _, PortError, Senses};
+use prone::robot::{JointAngles, Tops};
+
+use crate::driven::{SimulatedRobot, StoppedJoint};
+use crate::imu::{ImuError, SimulatedImu};
 use crate::pull::SETTLE;
-use crate::self_collision::{SelfCollision, SelfCollisionError};
 use crate::simulation::{Placement, Simulation, SimulationError, Snapshot};
 use crate::world::World;
 use measure::Meter;
@@ -44,15 +45,17 @@ pub const ROW_STEP: f64 = 0.02;
 
 /// What is crawled.
 #[derive(Debug, Clone)]
-pub struct CrawlPlan<'a> {
+pub struct CrawlPlan {
     /// The cycles between which the pilot chooses; the first one begins.
-    pub cycles: &'a [Cycle],
+    pub cycles: Vec<Cycle>,
     /// What all durations are multiplied by.
     pub scale: TimeScale,
     /// When it ends.
     pub end: End,
     /// What every commanded angle is off by, rad: joints are not calibrated exactly.
     pub offsets: Option<JointAngles>,
+    /// Seed of the inertial unit's noise, where the unit is read.
+    pub imu_seed: Option<u64>,
     /// What is kept.
     pub detail: Detail,
 }
@@ -93,332 +96,256 @@ pub struct Crawl {
     pub tops: Tops,
     /// What it bumped into, by part of the robot, then by obstacle.
     pub touches: Vec<Touch>,
+    /// Joints whose calibration error was stopped at a stop.
+    pub stopped: Vec<StoppedJoint>,
     /// Every [`ROW_STEP`], where asked for.
     pub rows: Vec<Row>,
     /// The position at each row.
     pub snapshots: Vec<Snapshot>,
-    /// Whether the end came before the most cycles were done.
+    /// Whether all that was asked for was done: every cycle of [`End::Cycles`], or the way past x of
+    /// [`End::Past`].
     pub arrived: bool,
-    /// Engine steps, settling included.
+    /// Engine steps of the simulation, what came before the crawl included.
     pub engine_steps: usize,
 }
 
 /// Why a crawl has no record.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CrawlError {
-    /// A cycle cannot be planned.
+    /// The crawl cannot begin or go on.
     #[error(transparent)]
-    Cycle(#[from] CycleError),
-    /// A cycle's mapping does not fit the robot.
+    Crawler(#[from] CrawlerError),
+    /// The robot's inertial unit cannot be read.
     #[error(transparent)]
-    Mapping(#[from] MappingError),
-    /// The pilot asks for a cycle that is not there.
-    #[error("there is no cycle {asked}: there are {cycles}")]
-    NoCycle {
-        /// Its index.
-        asked: usize,
-        /// How many there are.
-        cycles: usize,
-    },
+    Imu(#[from] ImuError),
+    /// The engine's step and the time between commands do not go together.
+    #[error(transparent)]
+    Timing(#[from] TimingError),
     /// The run broke down.
     #[error("cycle {cycle} ({gait}): {source}")]
     Simulation {
         /// From 1.
         cycle: usize,
-        /// The gait's name.
+        /// The cycle's name.
         gait: String,
         /// What happened.
         source: SimulationError,
     },
-    /// Two limbs would go through one another, which the simulation does not keep them from.
-    #[error(
-        "cycle {cycle}: {} and {} would be {depth_mm:.1} mm in one another, {place}",
-        shapes.0, shapes.1
-    )]
-    Limbs {
-        /// The cycle's name.
-        cycle: String,
-        /// Names of the two shapes.
-        shapes: (String, String),
-        /// How deep, mm.
-        depth_mm: f64,
-        /// In the pull or the recovery, and when.
-        place: String,
-    },
-    /// The limbs cannot be compared.
-    #[error(transparent)]
-    SelfCollision(#[from] SelfCollisionError),
     /// The user stopped it.
     #[error("stopped")]
     Stopped,
 }
 
-/// Crawls.
+/// Simulates a crawl from a settled start and returns its record.
 ///
 /// # Errors
 /// [`CrawlError`].
-pub fn run(
+pub fn run(world: &World, plan: &CrawlPlan, pilot: impl Pilot) -> Result<Crawl, CrawlError> {
+    let never = || false;
+    run_unless(&never, world, plan, pilot)
+}
+
+/// The same, stopped at once when `stopped` says so.
+///
+/// # Errors
+/// [`CrawlError`]; [`CrawlError::Stopped`] where it was stopped.
+pub fn run_unless(
+    stopped: &dyn Fn() -> bool,
     world: &World,
-    plan: &CrawlPlan<'_>,
-    pilot: &mut dyn Pilot,
+    plan: &CrawlPlan,
+    pilot: impl Pilot,
 ) -> Result<Crawl, CrawlError> {
-    let Some(first) = plan.cycles.first() else {
-        return Err(CrawlError::NoCycle {
-            asked: 0,
-            cycles: 0,
-        });
+    // Settling ends in the extension; the last of it is felt, its first instant by the first tick.
+    let rest = FELT_AT_REST - world.regime().time_step;
+    let crawler = crawler(world, plan, Begin::InExtension { rest }, pilot)?;
+    let robot = lie_down(world, plan, &crawler)?;
+    let (crawl, _) = proceed(robot, crawler, plan, stopped)?;
+    Ok(crawl)
+}
+
+/// A crawler for a plan in a world.
+///
+/// # Errors
+/// [`CrawlError`] where the first cycle cannot be planned.
+pub fn crawler<P: Pilot>(
+    world: &World,
+    plan: &CrawlPlan,
+    begin: Begin,
+    pilot: P,
+) -> Result<Crawler<P>, CrawlError> {
+    let (End::Cycles(most_cycles)
+    | End::Past {
+        at_most: most_cycles,
+        ..
+    }) = plan.end;
+    let every = COMMAND_STEP;
+    let program = Program {
+        cycles: plan.cycles.clone(),
+        scale: plan.scale,
+        most_cycles,
+        begin,
+        timing: Timing::new(world.regime().time_step, Delivery::SetPoints { every })?,
     };
-    let mut decision = Decision {
-        cycle: 0,
-        turn: 0.0,
+    let stops = world.stops().to_vec();
+    Ok(Crawler::new(world.shared_robot(), stops, program, pilot)?)
+}
+
+/// Lays the robot down in a crawler's first pose, its foremost point at x = 0, and lets the servos
+/// hold it there until it has settled, but for what the crawler is to feel at rest.
+///
+/// # Errors
+/// [`CrawlError::Imu`], [`CrawlError::Simulation`].
+pub fn lie_down<P: Pilot>(
+    world: &World,
+    plan: &CrawlPlan,
+    crawler: &Crawler<P>,
+) -> Result<SimulatedRobot, CrawlError> {
+    let imu = plan.imu_seed.map(|seed| SimulatedImu::new(world, seed));
+    let FirstPose {
+        posture,
+        root_pitch,
+    } = crawler.first_pose();
+    let placement = Placement {
+        posture: posture.clone(),
+        pitch: root_pitch,
     };
-    let mut planned = Planned::new(world, plan, decision)?;
-    let broken = |cycle: usize, source| CrawlError::Simulation {
-        cycle: cycle + 1,
-        gait: first.pull.name.clone(),
-        source,
+    let mut simulation = Simulation::new(world, &placement);
+    simulation.place_front_at(0.0);
+    let mut robot = SimulatedRobot::new(simulation)
+        .with_offsets(plan.offsets.clone())
+        .with_imu(imu.transpose()?);
+    let regime = world.regime();
+    let steps = regime.steps_in(SETTLE) - regime.steps_in(FELT_AT_REST) + 1;
+    let settled = robot.command(&JointCommand::SetPoint(posture));
+    let settled = settled.and_then(|()| (0..steps).try_for_each(|_| robot.wait()));
+    settled.map_err(|error| in_simulation(crawler.at(), error))?;
+    Ok(robot)
+}
+
+/// Crawls on with a robot that lies where the crawler begins, until the plan's end, and hands the
+/// robot back.
+///
+/// # Errors
+/// [`CrawlError`]; [`CrawlError::Stopped`] where `stopped` said so.
+pub fn proceed<P: Pilot>(
+    mut robot: SimulatedRobot,
+    mut crawler: Crawler<P>,
+    plan: &CrawlPlan,
+    stopped: &dyn Fn() -> bool,
+) -> Result<(Crawl, SimulatedRobot), CrawlError> {
+    let mut metered = Metered {
+        meter: Meter::new(robot.simulation().world(), plan.detail),
+        start: robot.simulation().snapshot(),
+        end: plan.end,
+        stopped,
+        was_stopped: false,
+        arrived: false,
     };
-    let simulation = settle(world, &planned, plan, pilot).map_err(|source| broken(0, source))?;
-    let start = simulation.snapshot();
-    let mut crawler = Crawler {
-        world,
-        plan,
-        simulation,
-        meter: Meter::new(world, plan.detail),
-    };
-    let mut arrived = false;
-    let most = match plan.end {
-        End::Cycles(cycles)
-        | End::Past {
-            at_most: cycles, ..
-        } => cycles,
-    };
-    let mut done = 0;
-    while done < most && !arrived {
-        crawler
-            .meter
-            .begin_cycle(&crawler.simulation, &planned.checked);
-        crawler
-            .pull(&planned, pilot)
-            .map_err(|source| broken(done, source))?;
-        crawler.meter.end_pull(&crawler.simulation);
-        decision = pilot.decide(&crawler.moment(Stage::Recovery))?;
-        let next = Planned::new(world, plan, decision)?;
-        crawler
-            .recover(&planned, &next, pilot)?
-            .map_err(|source| broken(done, source))?;
-        crawler.meter.end_cycle(&crawler.simulation);
-        planned = next;
-        done += 1;
-        arrived = match plan.end {
-            End::Cycles(_) => done == most,
-            End::Past { x, .. } => crawler.rear() > x,
-        };
+    drive(&mut robot, &mut crawler, &mut metered).map_err(|error| match error {
+        DriveError::Crawler(error) => CrawlError::Crawler(error),
+        DriveError::Port {
+            cycle,
+            gait,
+            source,
+        } => in_simulation((cycle, gait), source),
+    })?;
+    if metered.was_stopped {
+        return Err(CrawlError::Stopped);
     }
-    let engine_steps = crawler.simulation.steps();
-    let (record, snapshots) = crawler.meter.finish();
-    Ok(Crawl {
-        start,
+    let (record, snapshots) = metered.meter.finish();
+    let arrived = match plan.end {
+        End::Cycles(cycles) => crawler.cycles_done() == cycles,
+        End::Past { .. } => metered.arrived,
+    };
+    let crawl = Crawl {
+        start: metered.start,
         cycles: record.cycles,
         effort: record.effort,
         tops: record.tops,
         touches: record.touches,
+        stopped: robot.stopped(),
         rows: record.rows,
         snapshots,
         arrived,
-        engine_steps,
-    })
-}
-
-/// Looks whether limbs go through one another in a cycle's plan.
-///
-/// # Errors
-/// [`CrawlError::Limbs`] with the deepest place; a millimetre is not deep, as a model's shapes are
-/// rounder than its robot.
-pub fn check_limbs(world: &World, checked: &CheckedCycle) -> Result<(), CrawlError> {
-    let times = |seconds: f64| {
-        let count = (seconds / LIMB_STEP).ceil();
-        (0..)
-            .map(f64::from)
-            .take_while(move |k| *k <= count)
-            .map(move |k| seconds * k / count)
+        engine_steps: robot.simulation().steps(),
     };
-    let pull = checked.pull().duration().seconds();
-    let path = checked.recovery_after(checked)?;
-    let forth: Vec<f64> = times(pull).collect();
-    let back: Vec<f64> = times(checked.recovery_seconds()).collect();
-    let pulled = forth.iter().map(|&time| checked.pull_at(time));
-    let recovered = back.iter().map(|&time| path.at(time));
-    let postures: Vec<JointAngles> = pulled.chain(recovered).collect();
-    let near = SelfCollision::new(world)?.scan(&postures, 0.0)?.closest;
-    if near.closest.distance_m >= -DEEP {
-        return Ok(());
-    }
-    let place = match near.index.checked_sub(forth.len()) {
-        None => format!("{:.2} s into the pull", forth[near.index]),
-        Some(index) => format!("{:.2} s into the recovery", back[index]),
-    };
-    Err(CrawlError::Limbs {
-        cycle: checked.name().to_owned(),
-        shapes: near.closest.shapes,
-        depth_mm: -near.closest.distance_m * 1e3,
-        place,
-    })
+    Ok((crawl, robot))
 }
 
-/// Time between two postures that are looked at for limbs in one another, s.
-const LIMB_STEP: f64 = 0.02;
-/// How deep limbs may be in one another, m.
-const DEEP: f64 = 1e-3;
-
-/// A cycle ready to be commanded.
-struct Planned {
-    checked: CheckedCycle,
-    mapping: Mapping,
-}
-
-impl Planned {
-    fn new(world: &World, plan: &CrawlPlan<'_>, decision: Decision) -> Result<Self, CrawlError> {
-        let cycle = plan.cycles.get(decision.cycle).ok_or(CrawlError::NoCycle {
-            asked: decision.cycle,
-            cycles: plan.cycles.len(),
-        })?;
-        let robot = world.robot();
-        let pull = &cycle.pull;
-        Ok(Self {
-            checked: CheckedCycle::plan(robot, world.stops(), cycle, decision.turn, plan.scale)?,
-            mapping: Mapping::new(robot, pull.mapping, pull.arm)?,
-        })
-    }
-
-    /// Pitch of the root in the planned chain at a phase, rad.
-    fn root_pitch(&self, s: f64) -> f64 {
-        let samples = self.checked.pull().samples();
-        let last = samples.len() - 1;
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "between 0 and the number of samples"
-        )]
-        let nearest = ((s.clamp(0.0, 1.0) * last as f64).round() as usize).min(last);
-        self.mapping.root_pitch(&samples[nearest].chain)
-    }
-}
-
-fn settle<'w>(
-    world: &'w World,
-    planned: &Planned,
-    plan: &CrawlPlan<'_>,
-    pilot: &mut dyn Pilot,
-) -> Result<Simulation<'w>, SimulationError> {
-    let placement = Placement {
-        posture: planned.checked.extension().clone(),
-        pitch: planned.root_pitch(0.0),
-    };
-    let mut simulation = Simulation::new(world, &placement);
-    simulation.place_front_at(0.0);
-    simulation.command(&off_by(world, plan, planned.checked.extension().clone()));
-    let (steps, felt) = (
-        world.regime().steps_in(SETTLE),
-        world.regime().steps_in(FELT_AT_REST),
-    );
-    for step in 0..steps {
-        simulation.step();
-        if step + felt >= steps {
-            pilot.sense(&Moment {
-                simulation: &simulation,
-                stage: Stage::Recovery,
-            });
+/// What broke down is the simulation: it is the only thing in a simulated robot that can.
+fn in_simulation((cycle, gait): (usize, String), error: PortError) -> CrawlError {
+    let source = match error {
+        PortError::Backend(error) => match error.downcast::<SimulationError>() {
+            Ok(error) => *error,
+            Err(error) => unreachable!("a simulated robot fails as its simulation does: {error}"),
+        },
+        error @ (PortError::Lost { .. } | PortError::Refused { .. }) => {
+            unreachable!("a simulated robot has no link and no gate: {error}")
         }
-    }
-    simulation.check()?;
-    Ok(simulation)
-}
-
-/// A command as the motors take it: off by the joints' calibration, within the stops.
-fn off_by(world: &World, plan: &CrawlPlan<'_>, command: JointAngles) -> JointAngles {
-    let Some(offsets) = &plan.offsets else {
-        return command;
     };
-    let stops = world.stops();
-    command.map(|joint, angle| {
-        let stop = stops[joint.0];
-        (angle + offsets[joint]).clamp(stop.lower, stop.upper)
-    })
+    CrawlError::Simulation {
+        cycle,
+        gait,
+        source,
+    }
 }
 
-struct Crawler<'a, 'w> {
-    world: &'w World,
-    plan: &'a CrawlPlan<'a>,
-    simulation: Simulation<'w>,
+/// Measures a crawl, and says when it is over.
+struct Metered<'a> {
     meter: Meter,
+    start: Snapshot,
+    end: End,
+    stopped: &'a dyn Fn() -> bool,
+    was_stopped: bool,
+    arrived: bool,
 }
 
-impl<'w> Crawler<'_, 'w> {
-    fn pull(&mut self, planned: &Planned, pilot: &mut dyn Pilot) -> Result<(), SimulationError> {
-        let seconds = planned.checked.pull().duration().seconds();
-        self.follow(seconds, pilot, |time| {
-            let s = time / seconds;
-            let planned_pitch = planned.root_pitch(s);
-            (
-                planned.checked.pull_at(time),
-                Stage::Pull { s, planned_pitch },
-            )
-        })
+impl<P: Pilot> Watch<SimulatedRobot, P> for Metered<'_> {
+    fn before(
+        &mut self,
+        robot: &SimulatedRobot,
+        crawler: &Crawler<P>,
+        senses: &Senses,
+    ) -> Option<Halt> {
+        if (self.stopped)() {
+            self.was_stopped = true;
+            return Some(Halt::AtOnce);
+        }
+        let End::Past { x, .. } = self.end else {
+            return None;
+        };
+        self.arrived = crawler.cycle_ends_at(senses.time) && rear(robot.simulation()) > x;
+        self.arrived.then_some(Halt::AfterCycle)
     }
 
-    fn recover(
-        &mut self,
-        from: &Planned,
-        next: &Planned,
-        pilot: &mut dyn Pilot,
-    ) -> Result<Result<(), SimulationError>, CrawlError> {
-        let path = next.checked.recovery_after(&from.checked)?;
-        let seconds = next.checked.recovery_seconds();
-        Ok(self.follow(seconds, pilot, |time| (path.at(time), Stage::Recovery)))
-    }
-
-    /// Commands a course over time, one posture every [`COMMAND_STEP`].
-    fn follow(
-        &mut self,
-        seconds: f64,
-        pilot: &mut dyn Pilot,
-        at: impl Fn(f64) -> (JointAngles, Stage),
-    ) -> Result<(), SimulationError> {
-        let regime = self.world.regime();
-        let (steps, every) = (regime.steps_in(seconds), regime.steps_in(COMMAND_STEP));
-        let mut stage = Stage::Recovery;
-        for step in 0..steps {
-            if step % every == 0 {
-                // What is to be reached when the next command comes.
-                let time = ((step + every) as f64 * regime.time_step).min(seconds);
-                let posture;
-                (posture, stage) = at(time);
-                self.simulation
-                    .command(&off_by(self.world, self.plan, posture.clone()));
-                self.meter.command(posture, stage);
+    fn ticked(&mut self, robot: &SimulatedRobot, crawler: &Crawler<P>, _: &JointCommand) {
+        let simulation = robot.simulation();
+        for event in crawler.events() {
+            match event {
+                Event::CycleBegan => {
+                    if crawler.cycles_done() == 0 {
+                        self.start = simulation.snapshot();
+                    }
+                    self.meter.begin_cycle(simulation, crawler.cycle());
+                }
+                Event::PhaseEnded(PhaseKind::ClosedChain) => self.meter.end_pull(simulation),
+                Event::PhaseEnded(PhaseKind::Waypoints) | Event::Ended(_) => {}
+                Event::CycleEnded => self.meter.end_cycle(simulation),
             }
-            self.simulation.step();
-            pilot.sense(&self.moment(stage));
-            self.meter.step(&self.simulation);
-        }
-        self.simulation.check()
-    }
-
-    fn moment(&self, stage: Stage) -> Moment<'_, 'w> {
-        Moment {
-            simulation: &self.simulation,
-            stage,
         }
     }
 
-    /// The last point of the robot, m.
-    fn rear(&self) -> f64 {
-        -self
-            .world
-            .robot()
-            .reach(&self.simulation.body_poses(), glam::DVec3::NEG_X)
+    fn waited(&mut self, robot: &SimulatedRobot, crawler: &Crawler<P>) {
+        let command = (robot.commanded(), crawler.stage());
+        self.meter.step(robot.simulation(), command);
     }
+}
+
+/// The last point of the robot, m.
+fn rear(simulation: &Simulation) -> f64 {
+    -simulation
+        .robot()
+        .reach(&simulation.body_poses(), DVec3::NEG_X)
 }
 
 #[cfg(test)]

@@ -74,7 +74,7 @@ impl SimulatedImu {
     }
 
     /// One sample, of the beginning of the simulation's last engine step.
-    pub fn read(&mut self, simulation: &Simulation<'_>) -> ImuReading {
+    pub fn read(&mut self, simulation: &Simulation) -> ImuReading {
         let readings = simulation.sensor_readings();
         let truth = |start: usize| DVec3::from_slice(&readings[start..start + 3]);
         let specific_force = truth(self.addresses.accelerometer)

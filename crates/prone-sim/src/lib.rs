@@ -2,8 +2,9 @@
 //!
 //! [`LoadedRobot`] turns a robot's two files into [`prone::robot::Robot`]; a [`World`] puts it on a floor
 //! or into a scene under a named contact [`regime`]; a [`Simulation`] steps it with the servo law of the published
-//! study; [`pull`] runs one closed-chain phase and records it, [`crawl`] whole cycles; [`camera`]
-//! takes pictures on the CPU. [`imu`] is what the robot feels of its attitude; [`self_collision`]
+//! study; [`pull`] runs one closed-chain phase and records it, [`crawl`] whole cycles; [`driven`]
+//! makes a simulation something that can be driven, through [`prone::port`]; [`camera`] takes
+//! pictures on the CPU. [`imu`] is what the robot feels of its attitude; [`self_collision`]
 //! tells how near its limbs come to one another.
 //!
 //! The engine's model is shared, its data belongs to one run: runs on any number of threads give
@@ -11,6 +12,7 @@
 
 pub mod camera;
 pub mod crawl;
+pub mod driven;
 mod engine_log;
 pub mod imu;
 mod load;

@@ -12,9 +12,8 @@ use std::f64::consts::FRAC_PI_2;
 use prone::frames::{Ground, Root, Transform};
 use prone::gait::{CheckedTrajectory, Gait, PhaseDuration, TrajectoryError};
 use prone::mapping::Mapping;
-use prone::robot::JointAngles;
+use prone::robot::{BodyPart, JointAngles, Tops};
 
-use crate::crawl::{BodyPart, Tops};
 use crate::regime::CONTROL_STEP;
 use crate::simulation::{ContactForce, Placement, Simulation, SimulationError, Snapshot};
 use crate::world::World;
@@ -201,10 +200,7 @@ pub fn placement(
 ///
 /// # Errors
 /// [`SimulationError`].
-pub fn settle<'w>(
-    world: &'w World,
-    placement: &Placement,
-) -> Result<Simulation<'w>, SimulationError> {
+pub fn settle(world: &World, placement: &Placement) -> Result<Simulation, SimulationError> {
     let mut simulation = Simulation::new(world, placement);
     for _ in 0..whole_steps(SETTLE) {
         simulation.control_step()?;
@@ -217,11 +213,12 @@ pub fn settle<'w>(
 /// # Errors
 /// [`SimulationError`].
 pub fn proceed(
-    mut simulation: Simulation<'_>,
+    mut simulation: Simulation,
     trajectory: CheckedTrajectory,
     keep: Keep,
 ) -> Result<Pull, SimulationError> {
-    let robot = simulation.robot();
+    let world = simulation.world().clone();
+    let robot = world.robot();
     let pictures = match keep {
         Keep::Rows => 0,
         Keep::Shown { pictures } => pictures,

@@ -95,15 +95,18 @@ fn largest_change(before: &StepMeans, after: &StepMeans) -> f64 {
 /// Torques have the recordings' sign, minus the actuator's, and are those of the right side, as
 /// recorded. Each posture is a run of its own: answers depend on nothing asked before.
 #[derive(Debug)]
-pub struct SettledTorques<'w> {
-    world: &'w World,
+pub struct SettledTorques {
+    world: World,
     mapping: Mapping,
 }
 
-impl<'w> SettledTorques<'w> {
+impl SettledTorques {
     /// A source.
-    pub const fn new(world: &'w World, mapping: Mapping) -> Self {
-        Self { world, mapping }
+    pub fn new(world: &World, mapping: Mapping) -> Self {
+        Self {
+            world: world.clone(),
+            mapping,
+        }
     }
 
     /// All that is known of a posture at rest.
@@ -118,11 +121,11 @@ impl<'w> SettledTorques<'w> {
             posture: posture.map_err(|error| source(error.into()))?,
             pitch: self.mapping.root_pitch(&chain),
         };
-        settle(self.world, &placement).map_err(source)
+        settle(&self.world, &placement).map_err(source)
     }
 }
 
-impl TorqueSource for SettledTorques<'_> {
+impl TorqueSource for SettledTorques {
     fn torques(&self, at: GaitParameters) -> Result<JointTorques, TorqueGap> {
         let settled = self.settled(at)?;
         let joints = self.world.robot().chain.right.pitch_joints();

@@ -22,8 +22,8 @@ const FREE_JOINT_SPEEDS: usize = 6;
 
 /// A robot moving in a world. A clone goes on to the same bits as the original.
 #[derive(Debug, Clone)]
-pub struct Simulation<'w> {
-    world: &'w World,
+pub struct Simulation {
+    world: World,
     data: MjData<Arc<MjModel>>,
     reference: Vec<f64>,
     /// Velocity gain of each servo, N·m·s/rad.
@@ -65,10 +65,10 @@ pub enum SimulationError {
     },
 }
 
-impl<'w> Simulation<'w> {
+impl Simulation {
     /// Lays the robot on the floor: the posture within the stops, the root pitched, the lowest
     /// point of any shape on z = 0, all speeds zero, and the servos holding that posture.
-    pub fn new(world: &'w World, placement: &Placement) -> Self {
+    pub fn new(world: &World, placement: &Placement) -> Self {
         let mut data = MjData::new(Arc::clone(&world.model));
         let robot = world.robot();
         let stops = world.stops();
@@ -89,7 +89,7 @@ impl<'w> Simulation<'w> {
         };
         let gains = robot.joints.iter().map(gain).collect();
         Self {
-            world,
+            world: world.clone(),
             data,
             demanded: vec![0.0; robot.joints.len()],
             gains,
@@ -99,13 +99,23 @@ impl<'w> Simulation<'w> {
     }
 
     /// The robot.
-    pub fn robot(&self) -> &'w Robot {
+    pub fn robot(&self) -> &Robot {
         self.world.robot()
+    }
+
+    /// Where it moves.
+    pub const fn world(&self) -> &World {
+        &self.world
     }
 
     /// What the servos hold from now on.
     pub fn command(&mut self, reference: &JointAngles) {
         self.reference.copy_from_slice(reference.as_slice());
+    }
+
+    /// What the servos hold, rad.
+    pub fn reference(&self) -> JointAngles {
+        JointAngles::from_fn(self.reference.len(), |joint| self.reference[joint.0])
     }
 
     /// One control step; returns means over its engine steps.

@@ -25,17 +25,17 @@ const UNUSED_FRICTION: [f64; 2] = [0.005, 0.0001];
 /// Half-length of the floor's drawn square, m; the plane itself is endless.
 const FLOOR_HALF_LENGTH: f64 = 5.0;
 
-/// A compiled model, shared by any number of simulations.
+/// A compiled model, shared by any number of simulations; a clone shares all of it.
 #[derive(Debug, Clone)]
 pub struct World {
     pub(crate) model: Arc<MjModel>,
     robot: Arc<Robot>,
     regime: Regime,
-    stops: Vec<Range>,
+    stops: Arc<[Range]>,
     scene: Arc<Scene>,
     obstacles: Arc<[Obstacle]>,
     /// What each geom of the engine's model is.
-    pub(crate) geom_roles: Vec<GeomRole>,
+    pub(crate) geom_roles: Arc<[GeomRole]>,
 }
 
 /// What a geom of the engine's model is.
@@ -109,11 +109,11 @@ impl World {
                 message: engine_log::one_line(&error.to_string()),
             })?;
         Ok(Self {
-            geom_roles: geom_roles(&model, &scenery),
+            geom_roles: geom_roles(&model, &scenery).into(),
             model: Arc::new(model),
             robot,
             regime,
-            stops,
+            stops: stops.into(),
             scene: Arc::new(scene.clone()),
             obstacles: scene.obstacles().into(),
         })

@@ -8,6 +8,7 @@ pub mod frontier;
 pub mod passage;
 pub mod price;
 pub mod record;
+pub mod setting;
 pub mod settings;
 pub mod trial;
 

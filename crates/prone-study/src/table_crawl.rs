@@ -4,11 +4,10 @@ use std::borrow::Cow;
 
 use serde::{Deserialize, Serialize};
 
+use prone::crawl::Straight;
 use prone::gait::cycle::{CycleError, TimeScale};
 use prone::scene::Scene;
-use prone_sim::crawl::{
-    self, Crawl, CrawlError, CrawlPlan, Decision, Detail, End, Moment, Pilot, Straight,
-};
+use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, Detail, End};
 use prone_sim::{LoadedRobot, Regime, World, WorldError};
 
 use crate::crawl::{Conditions, CrawlSummary, GaitSource, summary};
@@ -74,18 +73,6 @@ pub enum TableError {
     Crawl(#[from] CrawlError),
 }
 
-/// Crawls straight ahead, until the user stops it.
-struct Observed<'a>(&'a dyn Observer);
-
-impl Pilot for Observed<'_> {
-    fn decide(&mut self, now: &Moment<'_, '_>) -> Result<Decision, CrawlError> {
-        if self.0.stop() {
-            return Err(CrawlError::Stopped);
-        }
-        Straight::default().decide(now)
-    }
-}
-
 /// Simulates both, one after the other.
 pub(crate) fn run(
     robot: &LoadedRobot,
@@ -112,15 +99,16 @@ fn experiment(
     published: TableCrawl,
     observer: &dyn Observer,
 ) -> Result<(TableExperiment, Crawl), TableError> {
-    let cycles = [study.gait.cycle.clone()];
     let plan = CrawlPlan {
-        cycles: &cycles,
+        cycles: vec![study.gait.cycle.clone()],
         scale: TimeScale::ONE,
         end: End::Cycles(published.cycles),
         offsets: None,
+        imu_seed: None,
         detail: Detail::Rows,
     };
-    let crawl = crawl::run(world, &plan, &mut Observed(observer))?;
+    let stopped = || observer.stop();
+    let crawl = crawl::run_unless(&stopped, world, &plan, Straight::default())?;
     let ours = summary::of(world, &study.gait.cycle, TimeScale::ONE, &crawl, None)?;
     observer.phase_done();
     let experiment = TableExperiment {

@@ -5,7 +5,8 @@
 //! from chain angles to a robot's joints ([`mapping`]), the robot ([`robot`]) and what it crawls
 //! on and under ([`scene`]) as data, the torques that hold it still ([`statics`]) or that a table
 //! knows ([`torque_map`]), what a crawl costs ([`cost`]) and how it keeps its line ([`steering`]).
-//! Which way is up, as its inertial unit tells, is in [`attitude`].
+//! Which way is up, as its inertial unit tells, is in [`attitude`]. The crawler itself is a state
+//! machine ([`crawl`]) over whatever can be driven ([`port`]).
 //!
 //! It reads no file and no clock, and knows no particular robot: files are read by `prone-files`,
 //! the robot's shape comes from its MJCF through `prone-sim`.
@@ -16,9 +17,11 @@
 pub mod attitude;
 pub mod chain;
 pub mod cost;
+pub mod crawl;
 pub mod frames;
 pub mod gait;
 pub mod mapping;
+pub mod port;
 pub mod robot;
 pub mod scene;
 pub mod statics;

@@ -12,12 +12,14 @@ mod mirror;
 mod shape;
 #[cfg(test)]
 pub(crate) mod testing;
+mod tops;
 
 pub use imu::{Imu, SensorNoise};
 pub use kinematics::BodyPoses;
 pub use limbs::{ChainPart, ChainSide, LimbError, check_limbs};
 pub use mirror::{Mirror, Twin};
 pub use shape::{Shape, Solid};
+pub use tops::{BodyPart, Tops};
 
 use std::collections::BTreeMap;
 use std::fmt;

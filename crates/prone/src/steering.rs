@@ -13,6 +13,10 @@
 
 use std::f64::consts::TAU;
 
+use glam::DVec3;
+
+use crate::frames::{Ground, Root, Transform};
+
 /// Where a robot is and where it heads, in the frame of the line that it is to follow.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Bearing {
@@ -22,6 +26,21 @@ pub struct Bearing {
     pub y: f64,
     /// Heading, rad, positive to the left.
     pub yaw: f64,
+}
+
+impl Bearing {
+    /// Bearing of a prone robot whose root has that pose, along the x axis of the ground.
+    ///
+    /// It lies on its belly, so that forward is where the top of its trunk points: the root's z axis.
+    pub fn of_prone(ground_from_root: &Transform<Ground, Root>) -> Self {
+        let ahead = ground_from_root.rotate(DVec3::Z);
+        let origin = ground_from_root.origin().metres();
+        Self {
+            x: origin.x,
+            y: origin.y,
+            yaw: ahead.y.atan2(ahead.x),
+        }
+    }
 }
 
 /// Gains of equation (1), and the line.

@@ -31,7 +31,7 @@ Contact regime `locomotion`: friction 0.7 where nothing else is said, the maker'
 limits on. The robot starts with its foremost point at x = 0; a plate of --ceiling-mm begins 50 mm
 ahead. The record folder appears when all is done, and replaces an earlier result in one step; all
 its files but timing.json are the same, byte for byte, for the same input, on any number of
-threads. After Ctrl-C, between two cycles, nothing is written.")]
+threads. After Ctrl-C, at once, nothing is written.")]
 pub(crate) struct CrawlRunArgs {
     /// A cycle that ships with prone (thesis-nominal, low-175, …) or a cycle file
     #[arg(long, value_name = "GAIT")]

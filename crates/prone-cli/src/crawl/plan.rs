@@ -2,15 +2,13 @@
 
 use anyhow::anyhow;
 
+use prone::crawl::{CrawlerError, HoldHeading, HoldLine, Pilot, SlopeAware, Straight};
 use prone::gait::cycle::{CheckedCycle, Cycle};
 use prone::robot::JointAngles;
 use prone::scene::{Obstacle, Quantity, Scene, SceneError, SideFriction};
-use prone::steering::TurnTo;
+use prone::steering::{HeadingHold, TurnTo};
 use prone_files::{scene_file, shipped, text_file};
-use prone_sim::crawl::{
-    CrawlError, End, Exact, HoldHeading, HoldLine, Pilot, SlopeAware, Straight, check_limbs,
-};
-use prone_sim::imu::SimulatedImu;
+use prone_sim::crawl::{CrawlError, End, LimbsError, check_limbs};
 use prone_sim::regime::Servo;
 use prone_sim::{LoadedRobot, Regime, World};
 use prone_study::crawl::{Conditions, GaitSource, PastObstacles};
@@ -37,7 +35,7 @@ pub(super) struct Plan {
     pub(super) world: World,
     pub(super) gait: GaitSource,
     uphill: Option<GaitSource>,
-    imu: Option<SimulatedImu>,
+    pub(super) imu_seed: Option<u64>,
     pub(super) end: End,
     pub(super) past: Option<PastObstacles>,
     pub(super) offsets: Option<JointAngles>,
@@ -74,10 +72,7 @@ impl Plan {
                 check_limbs(&world, &checked).map_err(|error| in_file(gait, error))?;
             }
         }
-        let imu = match (&uphill, args.seed) {
-            (Some(_), Some(seed)) => Some(SimulatedImu::new(&world, seed).map_err(Failure::input)?),
-            _ => None,
-        };
+        let imu_seed = uphill.as_ref().and(args.seed);
         let past = args.until_past.then(|| past(&world)).transpose()?;
         let most_cycles = match past {
             None => args.cycles.map_or(CYCLES, usize::from),
@@ -116,7 +111,7 @@ impl Plan {
             world,
             gait,
             uphill,
-            imu,
+            imu_seed,
             end,
             past,
             offsets,
@@ -127,9 +122,14 @@ impl Plan {
 
     /// An error of the crawl itself; of a cycle, with its file.
     pub(super) fn failure(&self, error: CrawlError) -> Failure {
-        match error {
-            CrawlError::Cycle(error) => refused(&self.gait, &error),
-            error => super::failure(error),
+        let CrawlError::Crawler(CrawlerError::Cycle { gait, source, .. }) = &error else {
+            return super::failure(error);
+        };
+        let sources = [Some(&self.gait), self.uphill.as_ref()];
+        let mut sources = sources.into_iter().flatten();
+        match sources.find(|it| it.cycle.pull.name == *gait) {
+            Some(gait) => refused(gait, source),
+            None => super::failure(error),
         }
     }
 
@@ -146,16 +146,15 @@ impl Plan {
     pub(super) fn pilot(&self) -> Box<dyn Pilot> {
         let steering: Box<dyn Pilot> = match self.steering {
             Steering::Straight { turn } => Box::new(Straight { turn }),
-            Steering::Hold { limit } => Box::new(HoldLine::new(Exact, limit)),
-            Steering::To(to) => Box::new(HoldHeading { source: Exact, to }),
+            Steering::Hold { limit } => Box::new(HoldLine {
+                hold: HeadingHold::new(limit),
+            }),
+            Steering::To(to) => Box::new(HoldHeading { to }),
         };
-        match &self.imu {
-            None => steering,
-            Some(imu) => {
-                let threshold = UPHILL_DEG.to_radians();
-                Box::new(SlopeAware::new(steering, imu.clone(), threshold))
-            }
+        if self.uphill.is_none() {
+            return steering;
         }
+        Box::new(SlopeAware::new(steering, UPHILL_DEG.to_radians()))
     }
 }
 
@@ -204,7 +203,7 @@ fn steering(args: &CrawlRunArgs, gait: &GaitSource) -> Result<Steering, Failure>
 }
 
 /// An error of a user's cycle, with the file.
-fn in_file(gait: &GaitSource, error: CrawlError) -> Failure {
+fn in_file(gait: &GaitSource, error: LimbsError) -> Failure {
     if is_shipped(gait) {
         return Failure::input(error);
     }

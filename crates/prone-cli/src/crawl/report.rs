@@ -2,7 +2,7 @@
 
 use std::io::{Result, Write};
 
-use prone_sim::crawl::BodyPart;
+use prone::robot::BodyPart;
 use prone_study::crawl::CrawlSummary;
 
 pub(super) fn print(summary: &CrawlSummary, out: &mut impl Write) -> Result<()> {

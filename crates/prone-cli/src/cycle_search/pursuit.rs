@@ -11,6 +11,7 @@ use prone::gait::cycle::Cycle;
 use prone_sim::Regime;
 use prone_study::cycle_search::frontier;
 use prone_study::cycle_search::record::{Compared, Found, Frontier};
+use prone_study::cycle_search::setting::SettingKind;
 use prone_study::optimize::search::{Search, SearchEnd};
 use prone_study::output;
 
@@ -238,7 +239,7 @@ fn print(frontier: &Frontier, out: &mut impl std::io::Write) -> std::io::Result<
         let stiff = confirmed
             .settings
             .iter()
-            .find(|row| row.setting == "stiff servos");
+            .find(|row| row.setting == SettingKind::StiffServos);
         writeln!(
             out,
             "{name:>10}{seed:>6}{:>14}{:>9}{:>10}{:>12}{:>12}{:>11}  {}",

@@ -1,14 +1,14 @@
 //! What is measured in a crawl.
 
+use prone::crawl::Stage;
 use prone::frames::{Ground, Root, Transform};
 use prone::gait::cycle::CheckedCycle;
-use prone::robot::JointAngles;
+use prone::robot::{BodyPart, JointAngles, Tops};
+use prone::steering::Bearing;
 
 use super::effort::Effort;
-use super::pilot::{Stage, bearing};
-use super::tops::{BodyPart, Tops};
 use super::touch::{Touch, Touches};
-use super::{Bearing, Detail, ROW_STEP};
+use super::{Detail, ROW_STEP};
 use crate::simulation::{ContactForce, Simulation, Snapshot};
 use crate::world::World;
 
@@ -113,8 +113,6 @@ pub(super) struct Meter {
     begin: Option<f64>,
     cycle: Option<CycleRow>,
     loads: [BodyLoad; 2],
-    command: JointAngles,
-    stage: Stage,
     means: Means,
     touches: Touches,
 }
@@ -191,15 +189,13 @@ impl Meter {
             begin: None,
             cycle: None,
             loads: [BodyLoad::default(); 2],
-            command: JointAngles::zero(robot),
-            stage: Stage::Recovery,
             means: Means::none(robot.joints.len()),
         }
     }
 
-    pub(super) fn begin_cycle(&mut self, simulation: &Simulation<'_>, checked: &CheckedCycle) {
+    pub(super) fn begin_cycle(&mut self, simulation: &Simulation, checked: &CheckedCycle) {
         let zero = *self.begin.get_or_insert(simulation.time());
-        let from = bearing(&simulation.ground_from_root());
+        let from = Bearing::of_prone(&simulation.ground_from_root());
         self.loads = [BodyLoad::default(); 2];
         self.cycle = Some(CycleRow {
             gait: checked.name().to_owned(),
@@ -216,31 +212,26 @@ impl Meter {
         });
     }
 
-    pub(super) fn end_pull(&mut self, simulation: &Simulation<'_>) {
+    pub(super) fn end_pull(&mut self, simulation: &Simulation) {
         if let Some(cycle) = &mut self.cycle {
-            cycle.pulled = bearing(&simulation.ground_from_root());
+            cycle.pulled = Bearing::of_prone(&simulation.ground_from_root());
         }
     }
 
-    pub(super) fn end_cycle(&mut self, simulation: &Simulation<'_>) {
+    pub(super) fn end_cycle(&mut self, simulation: &Simulation) {
         let Some(mut cycle) = self.cycle.take() else {
             return;
         };
         [cycle.body_share, cycle.recovery_body_share] = self.loads.map(BodyLoad::share);
-        cycle.to = bearing(&simulation.ground_from_root());
+        cycle.to = Bearing::of_prone(&simulation.ground_from_root());
         cycle.seconds = cycle.effort.seconds;
         self.record.effort.add(&cycle.effort);
         self.record.tops.raise(&cycle.tops);
         self.record.cycles.push(cycle);
     }
 
-    pub(super) fn command(&mut self, posture: JointAngles, stage: Stage) {
-        self.command = posture;
-        self.stage = stage;
-    }
-
-    /// After each engine step.
-    pub(super) fn step(&mut self, simulation: &Simulation<'_>) {
+    /// After each engine step, with what was commanded for it and what that is for.
+    pub(super) fn step(&mut self, simulation: &Simulation, command: (&JointAngles, Stage)) {
         let Some(cycle) = &mut self.cycle else {
             return;
         };
@@ -272,7 +263,7 @@ impl Meter {
             }
         }
         let contact = simulation.ground_contact();
-        self.loads[usize::from(self.stage == Stage::Recovery)].add(contact);
+        self.loads[usize::from(command.1 == Stage::Recovery)].add(contact);
         self.means.steps += 1;
         for (sum, torque) in self
             .means
@@ -286,11 +277,11 @@ impl Meter {
             *sum += force;
         }
         if simulation.steps_are_due(ROW_STEP) {
-            self.row(simulation);
+            self.row(simulation, command);
         }
     }
 
-    fn row(&mut self, simulation: &Simulation<'_>) {
+    fn row(&mut self, simulation: &Simulation, (command, stage): (&JointAngles, Stage)) {
         let robot = simulation.robot();
         let means = std::mem::replace(&mut self.means, Means::none(robot.joints.len()));
         let (Some(cycle), Some(begin)) = (&mut self.cycle, self.begin) else {
@@ -307,8 +298,8 @@ impl Meter {
         self.record.rows.push(Row {
             time: simulation.time() - begin,
             cycle: self.record.cycles.len(),
-            stage: self.stage,
-            command: self.command.clone(),
+            stage,
+            command: command.clone(),
             angles: simulation.joint_angles(),
             actuator_torque: means.torque.iter().map(|&sum| mean(sum)).collect(),
             contact: means.contact.map(mean),

@@ -43,7 +43,7 @@ impl Touches {
     }
 
     /// After each engine step, `time` s after the first pull began.
-    pub(super) fn step(&mut self, simulation: &Simulation<'_>, time: f64) {
+    pub(super) fn step(&mut self, simulation: &Simulation, time: f64) {
         if !self.walls.contains(&true) {
             return;
         }

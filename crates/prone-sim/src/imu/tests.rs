@@ -29,7 +29,7 @@ fn up(slope: f64) -> DVec3 {
 }
 
 /// The attitude that the root really has.
-fn truth(simulation: &Simulation<'_>, slope: f64) -> Attitude {
+fn truth(simulation: &Simulation, slope: f64) -> Attitude {
     let root_from_ground = simulation.ground_from_root().rotation().inverse();
     Attitude::from_up(root_from_ground * up(slope)).unwrap()
 }
@@ -42,11 +42,7 @@ fn gait_pose(world: &World) -> Placement {
 }
 
 /// Reads every engine step for some seconds.
-fn filtered(
-    simulation: &mut Simulation<'_>,
-    imu: &mut SimulatedImu,
-    seconds: f64,
-) -> AttitudeFilter {
+fn filtered(simulation: &mut Simulation, imu: &mut SimulatedImu, seconds: f64) -> AttitudeFilter {
     simulation.step();
     let first = imu.read(simulation);
     let mut filter = AttitudeFilter::aligned(Gains::PUBLISHED, &first).unwrap();
@@ -126,7 +122,7 @@ fn identity_a_moving_robot_knows_its_attitude() {
     let mut largest = 0.0_f64;
     for sample in plan.samples() {
         simulation.command(&sample.joints);
-        let listen = |simulation: &Simulation<'_>| {
+        let listen = |simulation: &Simulation| {
             filter.update(&imu.read(simulation), TIME_STEP).unwrap();
         };
         simulation.control_step_with(listen).unwrap();

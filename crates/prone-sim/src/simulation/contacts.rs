@@ -37,7 +37,7 @@ pub struct ContactForce {
 pub(super) struct Contact<'s> {
     pub(super) body: BodyId,
     pub(super) with: GeomRole,
-    simulation: &'s Simulation<'s>,
+    simulation: &'s Simulation,
     index: usize,
 }
 
@@ -73,7 +73,7 @@ impl Contact<'_> {
     }
 }
 
-impl Simulation<'_> {
+impl Simulation {
     /// The robot's contacts with obstacles after the last step, ramps included.
     pub fn obstacle_contacts(&self) -> impl Iterator<Item = ObstacleContact> {
         self.contacts().filter_map(|contact| match contact.with {

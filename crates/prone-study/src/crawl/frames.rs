@@ -237,9 +237,10 @@ fn sequence(world: &World, gait: &str, crawl: &Crawl) -> Result<Option<Frames>, 
 
 #[cfg(test)]
 mod tests {
+    use prone::crawl::Straight;
     use prone::gait::cycle::TimeScale;
     use prone_files::shipped;
-    use prone_sim::crawl::{self, CrawlPlan, Detail, End, Straight};
+    use prone_sim::crawl::{self, CrawlPlan, Detail, End};
     use prone_sim::{LoadedRobot, Regime, RobotFiles};
 
     use super::*;
@@ -250,13 +251,14 @@ mod tests {
         let robot = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
         let world = World::new(&robot, Regime::LOCOMOTION).unwrap();
         let plan = CrawlPlan {
-            cycles: &[shipped::cycle("low-175").unwrap().unwrap()],
+            cycles: vec![shipped::cycle("low-175").unwrap().unwrap()],
             scale: TimeScale::ONE,
             end: End::Cycles(5),
             offsets: None,
+            imu_seed: None,
             detail: Detail::Rows,
         };
-        let crawl = crawl::run(&world, &plan, &mut Straight { turn: 0.0 }).unwrap();
+        let crawl = crawl::run(&world, &plan, Straight { turn: 0.0 }).unwrap();
         let shown = instants(&crawl);
         assert_eq!(shown.len(), INSTANTS);
         let rows: Vec<&Row> = shown.iter().map(|&index| &crawl.rows[index]).collect();

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use prone::gait::Gait;
-use prone_sim::crawl::bearing;
+use prone::steering::Bearing;
 use prone_sim::pull::Pull;
 use prone_sim::regime::CONTROL_STEP;
 use prone_sim::{LoadedRobot, World};
@@ -71,5 +71,5 @@ pub(crate) fn files(
         options: &options,
     };
     let info = RecordInfo::of(robot, world, &subject, program);
-    shown(world, &info, bearing(&pull.start), &instants)
+    shown(world, &info, Bearing::of_prone(&pull.start), &instants)
 }

@@ -1,6 +1,7 @@
 //! The files of a record folder.
 
-use prone_sim::crawl::{Bearing, COMMAND_STEP, Crawl, ROW_STEP};
+use prone::steering::Bearing;
+use prone_sim::crawl::{COMMAND_STEP, Crawl, ROW_STEP};
 use prone_sim::{LoadedRobot, World};
 use serde::Serialize;
 

@@ -3,10 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale};
-use prone::robot::Robot;
+use prone::robot::{BodyPart, Robot, Tops};
 use prone::statics::GRAVITY;
 use prone_sim::World;
-use prone_sim::crawl::{BodyPart, Crawl, CycleRow, Tops, Touch};
+use prone_sim::crawl::{Crawl, CycleRow, Touch};
 
 use super::joints::{self, JointSummary};
 use super::obstacle_name;

@@ -1,8 +1,10 @@
 //! The tables of a record folder as CSV.
 
+use prone::crawl::Stage;
 use prone::frames::{Ground, Root, Transform};
-use prone::robot::{ContactGroup, JointAngles, Robot};
-use prone_sim::crawl::{Bearing, BodyPart, Row, Stage, Tops, bearing};
+use prone::robot::{BodyPart, ContactGroup, JointAngles, Robot, Tops};
+use prone::steering::Bearing;
+use prone_sim::crawl::Row;
 use prone_sim::{ContactForce, World, pull};
 
 use super::obstacle_name;
@@ -169,7 +171,7 @@ pub(super) fn rows(
         cells.extend(at.to_array().map(|metres| number(metres * 1e3, 3)));
         cells.extend([turn.w, turn.x, turn.y, turn.z].map(|part| number(part, 7)));
         let (dx, dy) = (at.x - start.x, at.y - start.y);
-        cells.push(number(bearing(&root).yaw.to_degrees(), 4));
+        cells.push(number(Bearing::of_prone(&root).yaw.to_degrees(), 4));
         cells.push(number((cos * dy - sin * dx) * 1e3, 3));
         let angles = row.command.pairs(row.angles);
         for ((command, angle), torque) in angles.zip(row.actuator_torque) {

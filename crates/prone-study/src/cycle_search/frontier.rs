@@ -8,8 +8,9 @@ use serde::{Deserialize, Serialize};
 use super::CycleProblem;
 use super::form::{CycleForm, CycleFormError};
 use super::price::{Aim, CyclePrice, CyclePricer, PricerError};
+use super::setting::{Setting, SettingKind};
 use super::settings::{HOLDS, SettingError};
-use super::trial::{Role, Setting, Trial, try_out};
+use super::trial::{Role, Trial, try_out};
 use crate::optimize::search::{Search, SearchEnd};
 
 /// Why nothing can be said.
@@ -93,8 +94,8 @@ pub struct Confirmed {
 /// A cycle in one setting.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ConfirmedSetting {
-    /// Its name.
-    pub setting: String,
+    /// What the setting changes.
+    pub setting: SettingKind,
     /// Advance per cycle, mm; `None` where it cannot be crawled, with the reason below.
     pub mm_per_cycle: Option<f64>,
     /// Speed, mm/s.
@@ -129,14 +130,14 @@ pub fn confirm(settings: &[Setting], cycle: &Cycle, ceiling: f64) -> Confirmed {
             Ok(trial) => {
                 let advance = *first.get_or_insert(trial.advance);
                 let kept = trial.advance / advance;
-                let enough = kept >= setting.role.keep().unwrap_or(HOLDS);
-                let directed = setting.role.misdirected(&trial) <= 0.0;
+                let enough = kept >= setting.spec.role.keep().unwrap_or(HOLDS);
+                let directed = setting.spec.role.misdirected(&trial) <= 0.0;
                 let holding = trial.top.0 < ceiling && enough && directed && trial.advance > 0.0;
-                holds &= setting.role == Role::Beside || holding;
+                holds &= setting.spec.role == Role::Beside || holding;
                 row(setting, &trial, kept)
             }
             Err(error) => {
-                holds &= setting.role == Role::Beside;
+                holds &= setting.spec.role == Role::Beside;
                 refused(setting, error.to_string())
             }
         };
@@ -150,7 +151,7 @@ pub fn confirm(settings: &[Setting], cycle: &Cycle, ceiling: f64) -> Confirmed {
 
 fn row(setting: &Setting, trial: &Trial, kept: f64) -> ConfirmedSetting {
     ConfirmedSetting {
-        setting: setting.name.clone(),
+        setting: setting.spec.kind,
         mm_per_cycle: Some(trial.advance * 1e3),
         mm_per_s: Some(trial.advance / trial.seconds * 1e3),
         yaw_deg: Some(trial.yaw.to_degrees()),
@@ -167,7 +168,7 @@ fn row(setting: &Setting, trial: &Trial, kept: f64) -> ConfirmedSetting {
 
 fn refused(setting: &Setting, reason: String) -> ConfirmedSetting {
     ConfirmedSetting {
-        setting: setting.name.clone(),
+        setting: setting.spec.kind,
         mm_per_cycle: None,
         mm_per_s: None,
         yaw_deg: None,
@@ -192,7 +193,7 @@ pub fn steers(settings: &[Setting], cycle: &Cycle) -> bool {
         let Ok(trial) = try_out(setting, cycle) else {
             return false;
         };
-        match setting.role {
+        match setting.spec.role {
             Role::Turn(_) => turned = turned.max(trial.yaw),
             _ => thrown_off = thrown_off.max(trial.yaw.abs()),
         }

@@ -7,7 +7,8 @@ use prone::gait::cycle::Cycle;
 use prone::robot::{ContactGroup, JointAngles, Robot};
 use serde::Serialize;
 
-use super::trial::{Setting, Trial, try_out};
+use super::setting::Setting;
+use super::trial::{Trial, try_out};
 
 /// An answer.
 #[derive(Debug, Clone, PartialEq, Serialize)]

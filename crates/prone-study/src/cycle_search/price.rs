@@ -10,6 +10,7 @@
 //! compares before the value. The settings are taken in order, and those after one that
 //! breaks a rule are not simulated: each counts as [`UNTRIED`].
 
+use prone::crawl::CrawlerError;
 use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale};
 use prone::gait::{Clamp, LimitsPolicy};
 use prone::robot::{JointAngles, JointId};
@@ -17,7 +18,8 @@ use prone_sim::crawl::CrawlError;
 use prone_sim::regime::Servo;
 use prone_sim::self_collision::{SelfCollision, SelfCollisionError};
 
-use super::trial::{Role, Setting, Trial, try_out};
+use super::setting::Setting;
+use super::trial::{Role, Trial, try_out};
 
 /// Violation of a setting that was not simulated, and of a cycle that cannot be crawled: more than
 /// what is usually broken in one that was.
@@ -78,7 +80,7 @@ impl Merge {
     pub fn worst_over(settings: &[Setting], cycle: &Cycle) -> Result<Self, CrawlError> {
         let valued = settings
             .iter()
-            .filter(|setting| setting.role == Role::Value);
+            .filter(|setting| setting.spec.role == Role::Value);
         let heats = valued.map(|setting| Ok(try_out(setting, cycle)?.heat_per_metre));
         heats.collect::<Result<_, _>>().map(Self::WorstOver)
     }
@@ -213,7 +215,7 @@ impl<'a> CyclePricer<'a> {
             let trial = match try_out(setting, cycle) {
                 Ok(trial) => trial,
                 Err(error) => {
-                    price.violation += UNTRIED * left + excess_speed(&error);
+                    price.violation += UNTRIED * left + excess_speed_of_crawl(&error);
                     break;
                 }
             };
@@ -226,7 +228,7 @@ impl<'a> CyclePricer<'a> {
         }
         let tried = self.settings.iter().zip(&price.trials);
         let valued: Vec<&Trial> = tried
-            .filter(|(setting, _)| setting.role == Role::Value)
+            .filter(|(setting, _)| setting.spec.role == Role::Value)
             .map(|(_, trial)| trial)
             .collect();
         let Aim {
@@ -258,7 +260,7 @@ impl<'a> CyclePricer<'a> {
             ..cycle.clone()
         };
         // The fastest setting decides whether joints are fast enough.
-        let fastest = self.settings.iter().map(|setting| setting.scale);
+        let fastest = self.settings.iter().map(|setting| setting.spec.scale);
         let fastest = fastest.fold(
             TimeScale::ONE,
             |a, b| if b.value() < a.value() { b } else { a },
@@ -268,7 +270,7 @@ impl<'a> CyclePricer<'a> {
                 broken += self.clamped_further(&checked);
                 broken += collides(&self.collision, &checked);
             }
-            Err(error) => broken += UNTRIED + excess_speed(&CrawlError::Cycle(error)),
+            Err(error) => broken += UNTRIED + excess_speed(&error),
         }
         broken
     }
@@ -291,17 +293,17 @@ impl<'a> CyclePricer<'a> {
     fn broken(&self, setting: &Setting, trial: &Trial, first_advance: f64) -> f64 {
         let rules = &self.aim.rules;
         let over = |value: f64, limit: f64| (value / limit - 1.0).max(0.0);
-        if setting.role == Role::Beside {
+        if setting.spec.role == Role::Beside {
             return 0.0;
         }
-        let least = match setting.role.keep() {
+        let least = match setting.spec.role.keep() {
             None => rules.advance,
             Some(share) => share * first_advance.max(rules.advance),
         };
         let mut broken = (1.0 - trial.advance / least).max(0.0);
-        broken += setting.role.misdirected(trial);
+        broken += setting.spec.role.misdirected(trial);
         broken += over(trial.top.0, rules.ceiling);
-        if rules.body_share < 1.0 && setting.role == Role::Value {
+        if rules.body_share < 1.0 && setting.spec.role == Role::Value {
             broken += (trial.body_share - rules.body_share).max(0.0);
         }
         if setting.world.regime().servo == Servo::Robot {
@@ -319,9 +321,17 @@ enum Thoroughness {
 
 /// Of a cycle that asks too much of a joint's speed, how much too much: a search can go down that
 /// slope.
-fn excess_speed(error: &CrawlError) -> f64 {
+fn excess_speed(error: &CycleError) -> f64 {
     match error {
-        CrawlError::Cycle(CycleError::Speed { speed, limit, .. }) => speed / limit - 1.0,
+        CycleError::Speed { speed, limit, .. } => speed / limit - 1.0,
+        _ => UNTRIED,
+    }
+}
+
+/// The same of a cycle that could not be crawled.
+fn excess_speed_of_crawl(error: &CrawlError) -> f64 {
+    match error {
+        CrawlError::Crawler(CrawlerError::Cycle { source, .. }) => excess_speed(source),
         _ => UNTRIED,
     }
 }
@@ -349,11 +359,12 @@ const PLAN_SAMPLES: usize = 8;
 
 #[cfg(test)]
 mod tests {
+    use super::super::setting::SettingKind;
     use super::*;
 
     fn warm(heat_per_metre: f64) -> Trial {
         Trial {
-            setting: String::new(),
+            setting: SettingKind::AsItIs,
             advance: 0.1,
             seconds: 2.0,
             top: (0.2, "head"),

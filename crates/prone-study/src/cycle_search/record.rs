@@ -123,7 +123,7 @@ pub fn csv(frontier: &Frontier) -> Result<Vec<u8>, csv::Error> {
             table.write_record([
                 maybe(found.ceiling_mm, 1),
                 found.seed.to_string(),
-                row.setting.clone(),
+                row.setting.to_string(),
                 maybe(row.mm_per_cycle, 3),
                 maybe(row.mm_per_s, 3),
                 maybe(row.yaw_deg, 3),

@@ -6,13 +6,14 @@
 use prone::gait::cycle::{Cycle, TimeScale, TimeScaleError};
 use prone::gait::{PhaseDuration, PhaseDurationError};
 use prone::robot::{JointAngles, Robot};
-use prone::scene::{Scene, SideFriction};
+use prone::scene::SideFriction;
 use prone_optim::Random;
 use prone_sim::regime::Servo;
-use prone_sim::{LoadedRobot, Regime, World, WorldError};
+use prone_sim::{LoadedRobot, Regime, WorldError};
 
 use super::price::CycleRules;
-use super::trial::{Role, Setting};
+use super::setting::{Setting, SettingKind, SettingSpec};
+use super::trial::Role;
 
 /// Friction of the locomotion regime and the span over which a cycle has to hold.
 const SLIPPERY: f64 = 0.4;
@@ -53,43 +54,57 @@ pub enum SettingError {
     Duration(#[from] PhaseDurationError),
 }
 
-/// Makes settings of one robot.
-struct Maker<'a> {
-    robot: &'a LoadedRobot,
-    regime: Regime,
-}
-
-impl Maker<'_> {
-    fn make(
-        &self,
-        name: &str,
-        regime: Regime,
-        scale: f64,
-        cycles: usize,
-        role: Role,
-    ) -> Result<Setting, SettingError> {
-        Ok(Setting {
-            name: name.to_owned(),
-            world: World::new(self.robot, regime)?,
-            scale: TimeScale::new(scale)?,
-            pull: None,
-            turn: 0.0,
-            offsets: None,
-            cycles,
-            role,
-        })
-    }
-
-    fn friction(&self, friction: f64) -> Regime {
-        self.regime.with_friction(friction)
-    }
-}
-
-fn maker(robot: &LoadedRobot) -> Maker<'_> {
-    Maker {
-        robot,
+/// A setting of the locomotion regime at its own friction, over so many cycles.
+fn plain(kind: SettingKind, cycles: usize, role: Role) -> SettingSpec {
+    SettingSpec {
+        kind,
         regime: Regime::LOCOMOTION,
+        friction: None,
+        scale: TimeScale::ONE,
+        pull: None,
+        offsets: None,
+        cycles,
+        turn: 0.0,
+        role,
     }
+}
+
+/// A corner of a search of the advance: another friction, at another speed.
+fn corner(kind: SettingKind, friction: f64, scale: f64) -> Result<SettingSpec, SettingError> {
+    Ok(SettingSpec {
+        regime: Regime::LOCOMOTION.with_friction(friction),
+        scale: TimeScale::new(scale)?,
+        ..plain(kind, 1, Role::Keep(KEEP))
+    })
+}
+
+fn with_friction(friction: f64) -> SettingSpec {
+    SettingSpec {
+        regime: Regime::LOCOMOTION.with_friction(friction),
+        ..plain(SettingKind::Friction(friction), 3, Role::Keep(HOLDS))
+    }
+}
+
+fn with_scale(scale: f64) -> Result<SettingSpec, SettingError> {
+    Ok(SettingSpec {
+        scale: TimeScale::new(scale)?,
+        ..plain(SettingKind::TimeScale(scale), 3, Role::Keep(HOLDS))
+    })
+}
+
+fn stiff(cycles: usize, role: Role) -> SettingSpec {
+    SettingSpec {
+        regime: Regime::LOCOMOTION.with_servo(Servo::Uniform(STIFF)),
+        ..plain(SettingKind::StiffServos, cycles, role)
+    }
+}
+
+fn compiled<const N: usize>(
+    robot: &LoadedRobot,
+    specs: [SettingSpec; N],
+) -> Result<Vec<Setting>, SettingError> {
+    let settings = specs.into_iter().map(|spec| Ok(spec.compile(robot)?));
+    settings.collect()
 }
 
 /// For a search of the advance: as it is, and the two corners in which it is hardest to hold.
@@ -97,24 +112,14 @@ fn maker(robot: &LoadedRobot) -> Maker<'_> {
 /// # Errors
 /// [`SettingError`].
 pub fn for_advance(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
-    let maker = maker(robot);
-    Ok(vec![
-        maker.make("as it is", maker.regime, 1.0, 2, Role::Value)?,
-        maker.make(
-            "slow, slippery",
-            maker.friction(SLIPPERY),
-            SLOW,
-            1,
-            Role::Keep(KEEP),
-        )?,
-        maker.make(
-            "fast, sticky",
-            maker.friction(STICKY),
-            FAST,
-            1,
-            Role::Keep(KEEP),
-        )?,
-    ])
+    compiled(
+        robot,
+        [
+            plain(SettingKind::AsItIs, 2, Role::Value),
+            corner(SettingKind::SlowSlippery, SLIPPERY, SLOW)?,
+            corner(SettingKind::FastSticky, STICKY, FAST)?,
+        ],
+    )
 }
 
 /// What a search adds where its cycle has to be steered: at the largest command it turns, and joints
@@ -135,23 +140,19 @@ pub fn for_steering_confirmation(robot: &LoadedRobot) -> Result<Vec<Setting>, Se
 }
 
 fn steering(robot: &LoadedRobot, keep: f64, seed: u64) -> Result<Vec<Setting>, SettingError> {
-    let maker = maker(robot);
-    let turning = maker.make("turning", maker.regime, 1.0, 3, Role::Turn(TURN))?;
-    let mut settings = vec![Setting {
+    let turning = SettingSpec {
         turn: 1.0,
-        ..turning
-    }];
+        ..plain(SettingKind::Turning, 3, Role::Turn(TURN))
+    };
+    let mut settings = vec![turning.compile(robot)?];
     for (index, (left, right)) in UNEVEN.into_iter().enumerate() {
-        let mut uneven = Scene::level();
-        uneven.floor.friction = Some(SideFriction { left, right });
-        let name = format!("friction {left} and {right}, joints off");
         let role = Role::Straight { yaw: DRIFT, keep };
-        let straight = maker.make(&name, maker.regime, 1.0, 3, role)?;
-        settings.push(Setting {
-            world: World::in_scene(robot, maker.regime, &uneven)?,
+        let uneven = SettingSpec {
+            friction: Some(SideFriction { left, right }),
             offsets: Some(offsets(robot.robot(), OFF, seed + index as u64)),
-            ..straight
-        });
+            ..plain(SettingKind::Uneven { left, right }, 3, role)
+        };
+        settings.push(uneven.compile(robot)?);
     }
     Ok(settings)
 }
@@ -174,12 +175,13 @@ pub fn offsets(robot: &Robot, largest: f64, seed: u64) -> JointAngles {
 /// # Errors
 /// [`SettingError`].
 pub fn for_heat(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
-    let maker = maker(robot);
-    let stiff = maker.regime.with_servo(Servo::Uniform(STIFF));
-    Ok(vec![
-        maker.make("as it is", maker.regime, 1.0, 2, Role::Value)?,
-        maker.make("stiff servos", stiff, 1.0, 2, Role::Value)?,
-    ])
+    compiled(
+        robot,
+        [
+            plain(SettingKind::AsItIs, 2, Role::Value),
+            stiff(2, Role::Value),
+        ],
+    )
 }
 
 /// For a confirmation: one thing changed at a time, three cycles each. Stiff servos stand beside it,
@@ -190,24 +192,29 @@ pub fn for_heat(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
 /// # Errors
 /// [`SettingError`].
 pub fn for_confirmation(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
-    let maker = maker(robot);
-    let keep = Role::Keep(HOLDS);
-    let stiff = maker.regime.with_servo(Servo::Uniform(STIFF));
-    let fine = maker.regime.with_time_step(0.001);
+    let regime = Regime::LOCOMOTION;
+    let fine = SettingSpec {
+        regime: regime.with_time_step(0.001),
+        ..plain(SettingKind::FineSteps, 3, Role::Keep(HOLDS))
+    };
     let speeds = robot.robot().joints.iter().map(|joint| joint.speed_limit);
-    let brisk = maker
-        .regime
-        .with_servo_speed(speeds.fold(maker.regime.servo_speed, f64::max));
-    Ok(vec![
-        maker.make("as it is", maker.regime, 1.0, 3, Role::Value)?,
-        maker.make("friction 0.4", maker.friction(SLIPPERY), 1.0, 3, keep)?,
-        maker.make("friction 1", maker.friction(STICKY), 1.0, 3, keep)?,
-        maker.make("time scale 0.8", maker.regime, FAST, 3, keep)?,
-        maker.make("time scale 1.7", maker.regime, SLOW, 3, keep)?,
-        maker.make("1 ms steps", fine, 1.0, 3, keep)?,
-        maker.make("stiff servos", stiff, 1.0, 3, Role::Beside)?,
-        maker.make("brisk servos", brisk, 1.0, 3, Role::Beside)?,
-    ])
+    let brisk = SettingSpec {
+        regime: regime.with_servo_speed(speeds.fold(regime.servo_speed, f64::max)),
+        ..plain(SettingKind::BriskServos, 3, Role::Beside)
+    };
+    compiled(
+        robot,
+        [
+            plain(SettingKind::AsItIs, 3, Role::Value),
+            with_friction(SLIPPERY),
+            with_friction(STICKY),
+            with_scale(FAST)?,
+            with_scale(SLOW)?,
+            fine,
+            stiff(3, Role::Beside),
+            brisk,
+        ],
+    )
 }
 
 /// For a confirmation of the heat: servos, frictions and the duration of the pull.
@@ -216,13 +223,12 @@ pub fn for_confirmation(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingErro
 /// [`SettingError`].
 pub fn for_heat_confirmation(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
     let mut settings = for_confirmation(robot)?;
-    let maker = maker(robot);
     for seconds in [1.0, 2.0, 3.0] {
-        let name = format!("pull of {seconds} s");
-        settings.push(Setting {
+        let other_pull = SettingSpec {
             pull: Some(PhaseDuration::new(seconds)?),
-            ..maker.make(&name, maker.regime, 1.0, 3, Role::Beside)?
-        });
+            ..plain(SettingKind::PullOf(seconds), 3, Role::Beside)
+        };
+        settings.push(other_pull.compile(robot)?);
     }
     Ok(settings)
 }

@@ -1,31 +1,10 @@
 //! One way to crawl a cycle, and what the cycle comes to in it.
 
-use prone::gait::PhaseDuration;
-use prone::gait::cycle::{Cycle, TimeScale};
-use prone::robot::JointAngles;
-use prone_sim::World;
-use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, Detail, End, Straight};
+use prone::crawl::Straight;
+use prone::gait::cycle::Cycle;
+use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, Detail, End};
 
-/// One way to crawl a cycle.
-#[derive(Debug, Clone)]
-pub struct Setting {
-    /// In a word, for records.
-    pub name: String,
-    /// Floor, servos, limits.
-    pub world: World,
-    /// How slowly.
-    pub scale: TimeScale,
-    /// How long the pull lasts instead, before the scale.
-    pub pull: Option<PhaseDuration>,
-    /// What every commanded angle is off by, rad.
-    pub offsets: Option<JointAngles>,
-    /// How many cycles; the last one is measured.
-    pub cycles: usize,
-    /// Turn command, in shares of the cycle's limit; the first pull is straight all the same.
-    pub turn: f64,
-    /// What it is for.
-    pub role: Role,
-}
+use super::setting::{Setting, SettingKind};
 
 /// What a setting is for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,8 +53,8 @@ const TURNING: f64 = 0.5;
 /// What a cycle came to in one setting; the last cycle of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trial {
-    /// The setting's name.
-    pub setting: String,
+    /// What the setting changes.
+    pub setting: SettingKind,
     /// Advance along the heading, m.
     pub advance: f64,
     /// How long it took, s.
@@ -102,25 +81,25 @@ pub struct Trial {
 /// [`CrawlError`].
 pub fn try_out(setting: &Setting, cycle: &Cycle) -> Result<Trial, CrawlError> {
     let cycle = Cycle {
-        pull_duration: setting.pull.unwrap_or(cycle.pull_duration),
+        pull_duration: setting.spec.pull.unwrap_or(cycle.pull_duration),
         ..cycle.clone()
-    };
-    let cycles = std::slice::from_ref(&cycle);
-    let plan = CrawlPlan {
-        cycles,
-        scale: setting.scale,
-        end: End::Cycles(setting.cycles),
-        offsets: setting.offsets.clone(),
-        detail: Detail::Sums,
     };
     let limit = cycle
         .steering
         .as_ref()
         .map_or(0.0, |steering| steering.limit);
-    let mut pilot = Straight {
-        turn: setting.turn * limit,
+    let plan = CrawlPlan {
+        cycles: vec![cycle],
+        scale: setting.spec.scale,
+        end: End::Cycles(setting.spec.cycles),
+        offsets: setting.spec.offsets.clone(),
+        imu_seed: None,
+        detail: Detail::Sums,
     };
-    let crawl = crawl::run(&setting.world, &plan, &mut pilot)?;
+    let pilot = Straight {
+        turn: setting.spec.turn * limit,
+    };
+    let crawl = crawl::run(&setting.world, &plan, pilot)?;
     Ok(measured(setting, &crawl))
 }
 
@@ -135,7 +114,7 @@ fn measured(setting: &Setting, crawl: &Crawl) -> Trial {
     let demanded = shoulders.map(|id| last.effort.joints[id.0].demanded_peak);
     let saturated = shoulders.map(|id| last.effort.joints[id.0].saturated);
     Trial {
-        setting: setting.name.clone(),
+        setting: setting.spec.kind,
         advance: advance.forward,
         seconds: last.seconds,
         top: (crawl.tops.highest(), crawl.tops.part().name()),
@@ -159,7 +138,7 @@ fn per_metre(cost: f64, advance: f64) -> f64 {
 
 fn nothing(setting: &Setting) -> Trial {
     Trial {
-        setting: setting.name.clone(),
+        setting: setting.spec.kind,
         advance: 0.0,
         seconds: 0.0,
         top: (f64::INFINITY, ""),

@@ -10,15 +10,22 @@ use super::svg::Point;
 use super::{Figure, Wording};
 use crate::cycle_search::frontier::ConfirmedSetting;
 use crate::cycle_search::record::{Found, Frontier};
+use crate::cycle_search::setting::SettingKind;
 
 /// `None` where nothing was found.
 pub fn figure(frontier: &Frontier) -> Option<Figure> {
-    let advance = panel(frontier, "as it is", "advance per cycle, mm", |row| {
-        row.mm_per_cycle
-    });
-    let heat = panel(frontier, "as it is", "heat per metre, s/m", |row| {
-        row.heat_per_metre_s
-    });
+    let advance = panel(
+        frontier,
+        SettingKind::AsItIs,
+        "advance per cycle, mm",
+        |row| row.mm_per_cycle,
+    );
+    let heat = panel(
+        frontier,
+        SettingKind::AsItIs,
+        "heat per metre, s/m",
+        |row| row.heat_per_metre_s,
+    );
     let panels: Vec<Panel> = [advance, heat].into_iter().flatten().collect();
     if panels.is_empty() {
         return None;
@@ -80,7 +87,7 @@ fn marker(fill: Fill) -> Marker {
 
 fn panel(
     frontier: &Frontier,
-    setting: &str,
+    setting: SettingKind,
     label: &str,
     of: impl Fn(&ConfirmedSetting) -> Option<f64>,
 ) -> Option<Panel> {

@@ -59,12 +59,12 @@ pub struct DynamicSetup {
 
 /// Prices gaits by simulation in one world.
 #[derive(Debug)]
-pub struct DynamicPricing<'w> {
-    world: &'w World,
+pub struct DynamicPricing {
+    world: World,
     setup: DynamicSetup,
     mapping: Mapping,
     /// Where most gaits of a search begin: settled once for all of them.
-    begun: Option<(Placement, Simulation<'w>)>,
+    begun: Option<(Placement, Simulation)>,
 }
 
 /// Why a gait has no price by simulation.
@@ -78,14 +78,14 @@ pub enum TrialError {
     Cost(#[from] CostError),
 }
 
-impl<'w> DynamicPricing<'w> {
+impl DynamicPricing {
     /// A pricing of gaits that share mapping and arms with `base`.
     ///
     /// # Errors
     /// [`MappingError`].
-    pub fn new(world: &'w World, base: &Gait, setup: DynamicSetup) -> Result<Self, MappingError> {
+    pub fn new(world: &World, base: &Gait, setup: DynamicSetup) -> Result<Self, MappingError> {
         let mut pricing = Self {
-            world,
+            world: world.clone(),
             setup,
             mapping: Mapping::new(world.robot(), base.mapping, base.arm)?,
             begun: None,
@@ -95,10 +95,10 @@ impl<'w> DynamicPricing<'w> {
         Ok(pricing)
     }
 
-    fn begin(&self, gait: &Gait) -> Result<(Placement, Simulation<'w>), PullError> {
-        let trajectory = pull::plan(self.world, gait, self.setup.duration)?;
-        let placement = pull::placement(self.world, gait, &trajectory, Start::FirstPose)?;
-        let simulation = pull::settle(self.world, &placement);
+    fn begin(&self, gait: &Gait) -> Result<(Placement, Simulation), PullError> {
+        let trajectory = pull::plan(&self.world, gait, self.setup.duration)?;
+        let placement = pull::placement(&self.world, gait, &trajectory, Start::FirstPose)?;
+        let simulation = pull::settle(&self.world, &placement);
         let simulation = simulation.map_err(|source| PullError::Simulation {
             gait: gait.name.clone(),
             duration_s: self.setup.duration.seconds(),
@@ -113,8 +113,8 @@ impl<'w> DynamicPricing<'w> {
     /// [`TrialError`].
     pub fn trial(&self, gait: &Gait) -> Result<Trial, TrialError> {
         let duration = self.setup.duration;
-        let trajectory = pull::plan(self.world, gait, duration).map_err(PullError::from)?;
-        let placement = pull::placement(self.world, gait, &trajectory, Start::FirstPose)?;
+        let trajectory = pull::plan(&self.world, gait, duration).map_err(PullError::from)?;
+        let placement = pull::placement(&self.world, gait, &trajectory, Start::FirstPose)?;
         let simulation = match &self.begun {
             Some((begun, simulation)) if *begun == placement => simulation.clone(),
             _ => self.begin(gait)?.1,
@@ -139,7 +139,7 @@ impl<'w> DynamicPricing<'w> {
     }
 }
 
-impl Pricing for DynamicPricing<'_> {
+impl Pricing for DynamicPricing {
     fn price(&self, gait: &Gait) -> Price {
         let violations = self.broken(gait);
         if violations.total() > 0.0 {
@@ -153,7 +153,7 @@ impl Pricing for DynamicPricing<'_> {
     }
 }
 
-impl DynamicPricing<'_> {
+impl DynamicPricing {
     /// What the planned chain breaks.
     fn broken(&self, gait: &Gait) -> Violations {
         let DynamicSetup {

@@ -34,7 +34,7 @@ pub(super) struct StaticGauge<'r> {
 /// The settled simulation.
 pub(super) struct SettledGauge<'w> {
     pub(super) world: &'w World,
-    pub(super) source: SettledTorques<'w>,
+    pub(super) source: SettledTorques,
 }
 
 /// Measures one posture; numbers that are not finite are no measurement.

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use prone::frames::Ground;
-use prone::robot::{BodyPoses, ContactGroup, Robot, Shape};
+use super::{BodyPoses, ContactGroup, Robot, Shape};
+use crate::frames::Ground;
 
 /// A part of the body whose height is recorded apart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -86,7 +86,8 @@ impl Tops {
             .map_or(BodyPart::Trunk, |(part, _)| part)
     }
 
-    pub(super) fn raise(&mut self, other: &Self) {
+    /// Raises each part's point to another's where that is higher.
+    pub fn raise(&mut self, other: &Self) {
         for (top, other) in self.0.iter_mut().zip(other.0) {
             *top = top.max(other);
         }

@@ -1,0 +1,95 @@
+//! The loop around a crawler and a port.
+
+use crate::port::{Command, JointCommand, Pace, PortError, Sense, Senses, Stop};
+
+use super::crawler::{Crawler, CrawlerError, Halt};
+use super::pilot::Pilot;
+
+/// Looks on while a crawler is driven.
+pub trait Watch<D: ?Sized, P> {
+    /// Before each tick: whether the crawl is to stop.
+    fn before(&mut self, port: &D, crawler: &Crawler<P>, senses: &Senses) -> Option<Halt>;
+
+    /// After each tick, before its command is carried out.
+    fn ticked(&mut self, port: &D, crawler: &Crawler<P>, command: &JointCommand);
+
+    /// When the time of a tick has gone by.
+    fn waited(&mut self, port: &D, crawler: &Crawler<P>);
+}
+
+/// Why a crawl did not come to its end.
+#[derive(Debug, thiserror::Error)]
+pub enum DriveError {
+    /// The crawl itself cannot go on.
+    #[error(transparent)]
+    Crawler(#[from] CrawlerError),
+    /// The port failed.
+    #[error("cycle {cycle} ({gait}): {source}")]
+    Port {
+        /// From 1.
+        cycle: usize,
+        /// The cycle's name.
+        gait: String,
+        /// What happened.
+        source: PortError,
+    },
+}
+
+/// Crawls to the end, one tick of the port after the other.
+///
+/// On an error the joints are stopped where they are, as far as the port still can; the first error
+/// is returned.
+///
+/// # Errors
+/// [`DriveError`].
+pub fn drive<D, P>(
+    port: &mut D,
+    crawler: &mut Crawler<P>,
+    watch: &mut impl Watch<D, P>,
+) -> Result<(), DriveError>
+where
+    D: Sense + Command + Pace + Stop + ?Sized,
+    P: Pilot,
+{
+    let driven = follow(port, crawler, watch);
+    if driven.is_err() {
+        // The error that is returned says more than one of stopping could.
+        let _ = port.stop();
+    }
+    driven
+}
+
+fn follow<D, P>(
+    port: &mut D,
+    crawler: &mut Crawler<P>,
+    watch: &mut impl Watch<D, P>,
+) -> Result<(), DriveError>
+where
+    D: Sense + Command + Pace + Stop + ?Sized,
+    P: Pilot,
+{
+    loop {
+        let senses = port.sense().map_err(|source| at(crawler, source))?;
+        if let Some(halt) = watch.before(port, crawler, &senses) {
+            crawler.stop(halt);
+        }
+        let command = crawler.tick(&senses)?;
+        watch.ticked(port, crawler, &command);
+        port.command(&command)
+            .map_err(|source| at(crawler, source))?;
+        if crawler.ended().is_some() {
+            return Ok(());
+        }
+        port.wait().map_err(|source| at(crawler, source))?;
+        watch.waited(port, crawler);
+    }
+}
+
+fn at<P: Pilot>(crawler: &Crawler<P>, source: PortError) -> DriveError {
+    let (cycle, gait) = crawler.at();
+    DriveError::Port {
+        cycle,
+        gait,
+        source,
+    }
+}
