@@ -29,3 +29,6 @@ pub use pilot::{Decision, HoldHeading, HoldLine, Moment, Pilot, PilotError, Stag
 pub use planned::FirstPose;
 pub use slope::SlopeAware;
 pub use timing::{Delivery, Timing, TimingError};
+
+#[cfg(test)]
+mod tests;

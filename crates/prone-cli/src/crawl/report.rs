@@ -98,5 +98,12 @@ pub(super) fn print(summary: &CrawlSummary, out: &mut impl Write) -> Result<()> 
             clamp.joint, clamp.largest_deg
         )?;
     }
+    for stop in &s.calibration_stops {
+        writeln!(
+            out,
+            "  {} is stopped at its limit in {} commands, as its calibration is off: {:+.2}° cut off at most",
+            stop.joint, stop.commands, stop.largest_deg
+        )?;
+    }
     Ok(())
 }

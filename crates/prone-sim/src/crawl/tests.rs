@@ -310,3 +310,132 @@ fn a_changing_turn_leaves_planted_arms_where_they_are() {
         );
     }
 }
+
+fn steady(cycles: usize) -> CrawlPlan {
+    CrawlPlan {
+        cycles: vec![shipped::cycle("low-175").unwrap().unwrap()],
+        scale: TimeScale::ONE,
+        end: End::Cycles(cycles),
+        offsets: None,
+        imu_seed: None,
+        detail: Detail::Sums,
+    }
+}
+
+fn never() -> bool {
+    false
+}
+
+/// A crawl hands its robot back, so that whatever follows goes on from there: two crawls one after
+/// the other are one, to the bit.
+#[test]
+fn a_crawl_that_goes_on_is_one_crawl() {
+    let robot = nao();
+    let world = World::new(&robot, Regime::LOCOMOTION).unwrap();
+    let at_once = Begin::InExtension { rest: 0.0 };
+    let first = crawler(&world, &steady(1), at_once, Straight::default()).unwrap();
+    let lying = lie_down(&world, &steady(1), &first).unwrap();
+    let (whole, ended) = {
+        let two = crawler(&world, &steady(2), at_once, Straight::default()).unwrap();
+        proceed(lying.clone(), two, &steady(2), &never).unwrap()
+    };
+    let (one, between) = proceed(lying, first, &steady(1), &never).unwrap();
+    let second = crawler(&world, &steady(1), at_once, Straight::default()).unwrap();
+    let (other, last) = proceed(between, second, &steady(1), &never).unwrap();
+    assert_eq!(last.simulation().snapshot(), ended.simulation().snapshot());
+    assert_eq!(one.cycles[0].to, whole.cycles[0].to);
+    assert_eq!(other.cycles[0].to, whole.cycles[1].to);
+    assert!(whole.cycles[1].advance().forward > 0.1);
+}
+
+/// From a posture that is no extension, on the floor: it goes to the extension, and crawls.
+#[test]
+fn a_crawl_begins_where_the_robot_lies() {
+    let robot = nao();
+    let world = World::new(&robot, Regime::LOCOMOTION).unwrap();
+    let posture = world.robot().postures["lying-belly"].clone();
+    let pitch = std::f64::consts::FRAC_PI_2;
+    let mut lying = SimulatedRobot::new(Simulation::new(&world, &Placement { posture, pitch }));
+    for _ in 0..400 {
+        lying.wait().unwrap();
+    }
+    let begin = Begin::Lying {
+        speed: 0.3,
+        rest: 0.5,
+    };
+    let plan = steady(3);
+    let crawler = crawler(&world, &plan, begin, Straight::default()).unwrap();
+    let extension = crawler.first_pose().posture;
+    let (crawl, robot) = proceed(lying, crawler, &plan, &never).unwrap();
+    let third = crawl.cycles[2].advance().forward;
+    // As from its settled start, within a tenth: it lies beside its line, turned a little.
+    assert!((third - 0.134).abs() < 0.0134, "{third} m");
+    assert_eq!(robot.commanded(), &extension);
+}
+
+/// A robot that follows whole phases by itself crawls as far as one that is told every 10 ms: the
+/// set-points lead by 10 ms, which is all that differs.
+#[test]
+fn segments_crawl_as_far_as_set_points() {
+    let robot = nao();
+    let world = World::new(&robot, Regime::LOCOMOTION).unwrap();
+    let plan = steady(3);
+    let begin = Begin::InExtension { rest: 0.0 };
+    let points = crawler(&world, &plan, begin, Straight::default()).unwrap();
+    let lying = lie_down(&world, &plan, &points).unwrap();
+    let program = Program {
+        cycles: plan.cycles.clone(),
+        scale: plan.scale,
+        most_cycles: 3,
+        begin,
+        timing: Timing::new(world.regime().time_step, Delivery::Segments { every: 0.05 }).unwrap(),
+    };
+    let stops = world.stops().to_vec();
+    let segments = Crawler::new(world.shared_robot(), stops, program, Straight::default()).unwrap();
+    let (points, _) = proceed(lying.clone(), points, &plan, &never).unwrap();
+    let (segments, _) = proceed(lying, segments, &plan, &never).unwrap();
+    let forward = |crawl: &Crawl| crawl.cycles[2].advance().forward;
+    let (points, segments) = (forward(&points), forward(&segments));
+    assert!(
+        (points - segments).abs() < 0.03 * points,
+        "{points} and {segments} m"
+    );
+}
+
+/// A calibration error that leads past a stop is stopped there, counted and told.
+#[test]
+fn calibration_errors_are_stopped_and_counted() {
+    let robot = nao();
+    let world = World::new(&robot, Regime::LOCOMOTION).unwrap();
+    let ankle = world.robot().chain.left.ankle;
+    let off = |radians: f64| {
+        let mut offsets = JointAngles::zero(world.robot());
+        offsets[ankle] = radians;
+        let plan = CrawlPlan {
+            offsets: Some(offsets),
+            ..steady(1)
+        };
+        run(&world, &plan, Straight::default()).unwrap().stopped
+    };
+    assert_eq!(off(0.0), [], "exact joints");
+    // The low cycle leans on the ankle's lower stop, so that any error downwards is cut.
+    let stopped = off(-0.05);
+    assert_eq!(stopped.len(), 1);
+    assert_eq!(stopped[0].joint, ankle);
+    assert!(stopped[0].commands > 10, "{stopped:?}");
+    assert!((stopped[0].largest + 0.05).abs() < 1e-9, "{stopped:?}");
+}
+
+#[test]
+fn a_crawl_is_stopped_at_once() {
+    let robot = nao();
+    let world = World::new(&robot, Regime::LOCOMOTION).unwrap();
+    let looks = std::cell::Cell::new(0);
+    let third = || {
+        looks.set(looks.get() + 1);
+        looks.get() > 3
+    };
+    let error = run_unless(&third, &world, &steady(9), Straight::default()).unwrap_err();
+    assert_eq!(error, CrawlError::Stopped);
+    assert_eq!(looks.get(), 4);
+}

@@ -92,8 +92,22 @@ pub struct CrawlSummary {
     pub joints: Vec<JointSummary>,
     /// Joints stopped at their limits in the plan without a turn.
     pub clamps: Vec<SheetClamp>,
+    /// Joints whose calibration error led commands past their limits, where they were stopped.
+    #[serde(default)]
+    pub calibration_stops: Vec<CalibrationStop>,
     /// One entry per cycle.
     pub per_cycle: Vec<CycleSummary>,
+}
+
+/// A joint whose calibration error led commands past its limit, where it was stopped.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CalibrationStop {
+    /// Name of the joint.
+    pub joint: String,
+    /// How many commands, those that held the start posture included.
+    pub commands: usize,
+    /// Largest amount cut off, degrees, negative at the lower limit.
+    pub largest_deg: f64,
 }
 
 /// A part of the robot that met an obstacle.
@@ -238,8 +252,18 @@ pub fn of(
             .map(|(metres, loss)| (work_j + loss) / (weight * metres)),
         joints,
         clamps: clamps(robot, &checked),
+        calibration_stops: calibration_stops(robot, crawl),
         per_cycle,
     })
+}
+
+fn calibration_stops(robot: &Robot, crawl: &Crawl) -> Vec<CalibrationStop> {
+    let stopped = crawl.stopped.iter().map(|stopped| CalibrationStop {
+        joint: robot.joints[stopped.joint.0].name.clone(),
+        commands: stopped.commands,
+        largest_deg: stopped.largest.to_degrees(),
+    });
+    stopped.collect()
 }
 
 /// Advance of the shoulder in the planned chain, m.

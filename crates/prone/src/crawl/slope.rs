@@ -136,3 +136,29 @@ fn begin(reading: &ImuReading) -> Result<Option<AttitudeFilter>, AttitudeError> 
         Err(error) => Err(error),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Taken above the threshold, left well below it: in between, whatever was crawled goes on.
+    #[test]
+    fn the_uphill_cycle_is_taken_late_and_left_late() {
+        let mut choice = UphillChoice::new(10.0);
+        let course = [
+            (9.9, false),
+            (10.1, true),
+            (9.0, true),
+            (8.1, true),
+            (7.9, false),
+            (9.0, false),
+            (-20.0, false),
+            (10.1, true),
+            (-20.0, false),
+        ];
+        for (slope, uphill) in course {
+            choice.take(slope);
+            assert_eq!(choice.uphill, uphill, "at {slope}");
+        }
+    }
+}

@@ -1,0 +1,604 @@
+//! The crawler over a robot of numbers: joints that are at once where they are commanded.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::*;
+use crate::attitude::ImuReading;
+use crate::frames::Transform;
+use crate::gait::cycle::{Approach, Cycle, Easing, Steering, TimeScale, Waypoint};
+use crate::gait::{Curve, Gait, LimitsPolicy, PhaseDuration};
+use crate::mapping::{ArmMode, MappingVariant};
+use crate::port::{InertialUnit, JointCommand, Senses};
+use crate::robot::testing::two_armed;
+use crate::robot::{ContactGroup, JointAngles, Robot, Shape, Solid};
+use crate::statics::GRAVITY;
+use crate::steering::{Bearing, HeadingHold};
+
+const TICK: f64 = 0.0025;
+const EVERY: f64 = 0.01;
+
+fn gait(name: &str) -> Gait {
+    Gait {
+        name: name.to_owned(),
+        description: String::new(),
+        knee: Curve::constant(0.35).unwrap(),
+        hip: Curve::constant(0.35).unwrap(),
+        upper_arm: Curve::linear(-0.6, -1.2).unwrap(),
+        mapping: MappingVariant::Exact,
+        arm: ArmMode::FlatForearm,
+        limits: LimitsPolicy::Refuse,
+    }
+}
+
+/// Half a second of pull, and half a second back by way of one waypoint.
+fn cycle(name: &str) -> Cycle {
+    let approach = Approach {
+        seconds: 0.25,
+        easing: Easing::Smoothstep,
+    };
+    Cycle {
+        pull: gait(name),
+        pull_duration: PhaseDuration::new(0.5).unwrap(),
+        company: BTreeMap::new(),
+        recovery: vec![Waypoint {
+            name: "lift".to_owned(),
+            approach,
+            joints: BTreeMap::new(),
+        }],
+        approach,
+        steering: Some(Steering {
+            limit: 0.2,
+            spread: 1.0,
+            joints: BTreeMap::new(),
+        }),
+    }
+}
+
+fn set_points() -> Delivery {
+    Delivery::SetPoints { every: EVERY }
+}
+
+fn program(cycles: &[Cycle], most_cycles: usize, begin: Begin, delivery: Delivery) -> Program {
+    Program {
+        cycles: cycles.to_vec(),
+        scale: TimeScale::ONE,
+        most_cycles,
+        begin,
+        timing: Timing::new(TICK, delivery).unwrap(),
+    }
+}
+
+/// A made-up robot whose joints are named by side, as errors name them.
+fn robot() -> Arc<Robot> {
+    let mut robot = two_armed();
+    for (index, joint) in robot.joints.iter_mut().enumerate() {
+        let side = if index < 7 { "L" } else { "R" };
+        joint.name = format!("{side}{}", joint.name);
+    }
+    // It is carried by balls at its toes and elbows.
+    let sides = [robot.chain.left.clone(), robot.chain.right.clone()];
+    for side in sides {
+        let supports = [
+            (side.toe, ContactGroup::Toe),
+            (side.elbow, ContactGroup::Elbow),
+        ];
+        for ((body, at), group) in supports {
+            robot.bodies[body.0].contact_group = group;
+            robot.shapes.push(Shape {
+                name: format!("{group}"),
+                body,
+                link_from_geom: Transform::translation(at.metres()),
+                solid: Solid::Sphere { radius: 0.01 },
+            });
+        }
+    }
+    Arc::new(robot)
+}
+
+fn crawler_of<P: Pilot>(program: Program, pilot: P) -> Crawler<P> {
+    let robot = robot();
+    let stops = robot.stops();
+    Crawler::new(robot, stops, program, pilot).unwrap()
+}
+
+fn straight(most_cycles: usize, begin: Begin, delivery: Delivery) -> Crawler<Straight> {
+    let program = program(&[cycle("only")], most_cycles, begin, delivery);
+    crawler_of(program, Straight::default())
+}
+
+const AT_ONCE: Begin = Begin::InExtension { rest: 0.0 };
+
+fn senses(time: f64, angles: &JointAngles) -> Senses {
+    Senses {
+        time,
+        angles: angles.clone(),
+        inertial: InertialUnit::Absent,
+        bearing: None,
+        touch: None,
+    }
+}
+
+/// What came of a crawl: commands with their times, and events with theirs.
+struct Log {
+    commands: Vec<(f64, JointCommand)>,
+    events: Vec<(f64, Event)>,
+}
+
+/// Ticks a crawler to its end; `change` says what is felt otherwise, `true` that a tick is lost.
+fn crawl<P: Pilot>(
+    crawler: &mut Crawler<P>,
+    mut change: impl FnMut(&mut Senses) -> Sensed,
+) -> Result<Log, CrawlerError> {
+    let mut angles = crawler.first_pose().posture;
+    let mut log = Log {
+        commands: Vec::new(),
+        events: Vec::new(),
+    };
+    for tick in 0..100_000 {
+        let time = f64::from(tick) * TICK;
+        let mut senses = senses(time, &angles);
+        if change(&mut senses) == Sensed::Lost {
+            continue;
+        }
+        let command = crawler.tick(&senses)?;
+        log.events
+            .extend(crawler.events().iter().map(|event| (time, *event)));
+        if let JointCommand::SetPoint(posture) = &command {
+            angles = posture.clone();
+        }
+        if command != JointCommand::Continue {
+            log.commands.push((time, command));
+        }
+        if crawler.ended().is_some() {
+            return Ok(log);
+        }
+    }
+    panic!("the crawl has no end");
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Sensed {
+    Whole,
+    Lost,
+}
+
+fn whole(_: &mut Senses) -> Sensed {
+    Sensed::Whole
+}
+
+#[test]
+fn phases_and_cycles_follow_one_another() {
+    let mut crawler = straight(2, Begin::InExtension { rest: 0.1 }, set_points());
+    let log = crawl(&mut crawler, whole).unwrap();
+    let close = |a: f64, b: f64| (a - b).abs() < 1e-9;
+    let expected = [
+        (0.1, Event::CycleBegan),
+        (0.6, Event::PhaseEnded(PhaseKind::ClosedChain)),
+        (1.1, Event::PhaseEnded(PhaseKind::Waypoints)),
+        (1.1, Event::CycleEnded),
+        (1.1, Event::CycleBegan),
+        (1.6, Event::PhaseEnded(PhaseKind::ClosedChain)),
+        (2.1, Event::PhaseEnded(PhaseKind::Waypoints)),
+        (2.1, Event::CycleEnded),
+        (2.1, Event::Ended(Ended::Cycles)),
+    ];
+    assert_eq!(log.events.len(), expected.len(), "{:?}", log.events);
+    for ((time, event), (expected_time, expected)) in log.events.iter().zip(expected) {
+        assert_eq!(*event, expected);
+        assert!(close(*time, expected_time), "{event:?} at {time} s");
+    }
+    assert_eq!(crawler.cycles_done(), 2);
+    // It ends where it began, and hands over from there.
+    let extension = crawler.first_pose().posture;
+    assert_eq!(crawler.commanded(), Some(&extension));
+    assert_eq!(
+        crawler.tick(&senses(9.0, &extension)),
+        Ok(JointCommand::Continue)
+    );
+}
+
+/// Each set-point is the posture that is to be reached when the next one comes.
+#[test]
+fn set_points_are_those_of_the_planned_pull() {
+    let mut crawler = straight(1, AT_ONCE, set_points());
+    let log = crawl(&mut crawler, whole).unwrap();
+    let checked = crawler.cycle().clone();
+    for (index, (time, command)) in log.commands.iter().take(50).enumerate() {
+        let reached = (index + 1) as f64 * EVERY;
+        assert!((time - (reached - EVERY)).abs() < 1e-9);
+        assert_eq!(*command, JointCommand::SetPoint(checked.pull_at(reached)));
+    }
+    let (_, last) = &log.commands[49];
+    assert_eq!(*last, JointCommand::SetPoint(checked.compression().clone()));
+}
+
+/// A robot that follows a path by itself is where the set-points would have put it.
+#[test]
+fn segments_go_where_set_points_go() {
+    let points = crawl(&mut straight(2, AT_ONCE, set_points()), whole).unwrap();
+    let mut crawler = straight(2, AT_ONCE, Delivery::Segments { every: EVERY });
+    let extension = crawler.first_pose().posture;
+    let segments = crawl(&mut crawler, whole).unwrap();
+    assert_eq!(segments.events, points.events);
+    assert_eq!(segments.commands.len(), 4, "one a phase");
+    let mut from = extension;
+    for (began, command) in &segments.commands {
+        let JointCommand::Segment(segment) = command else {
+            panic!("{command:?}");
+        };
+        for (time, command) in &points.commands {
+            let since = time + EVERY - began;
+            let last = segment.knots.last().unwrap().seconds;
+            if !(1e-9..last + 1e-9).contains(&since) {
+                continue;
+            }
+            let JointCommand::SetPoint(posture) = command else {
+                panic!("{command:?}");
+            };
+            let there = segment.at(since, &from);
+            for (a, b) in there.as_slice().iter().zip(posture.as_slice()) {
+                assert!((a - b).abs() < 1e-9, "{a} and {b} rad at {time} s");
+            }
+        }
+        from = segment.knots.last().unwrap().angles.clone();
+    }
+}
+
+/// Of lost ticks the crawler makes up the time: what it commands is what is due.
+#[test]
+fn lost_ticks_lose_set_points_and_no_time() {
+    let mut crawler = straight(1, AT_ONCE, set_points());
+    let mut ticks = 0;
+    let log = crawl(&mut crawler, |_| {
+        ticks += 1;
+        // Every second stretch of 15 ms is lost.
+        if ticks / 6 % 2 == 1 {
+            Sensed::Lost
+        } else {
+            Sensed::Whole
+        }
+    });
+    let log = log.unwrap();
+    let checked = crawler.cycle().clone();
+    let pull = log.commands.iter().take_while(|(time, _)| *time < 0.49);
+    let mut seen = 0;
+    for (time, command) in pull {
+        let due = ((time / EVERY + 1e-9).floor() + 1.0) * EVERY;
+        let JointCommand::SetPoint(posture) = command else {
+            panic!("{command:?}");
+        };
+        let planned = checked.pull_at(due);
+        for (a, b) in posture.as_slice().iter().zip(planned.as_slice()) {
+            assert!((a - b).abs() < 1e-9, "at {time} s");
+        }
+        seen += 1;
+    }
+    assert!((20..50).contains(&seen), "{seen} set-points");
+    let (end, _) = log.events.last().unwrap();
+    assert!((1.0..1.02).contains(end), "{end} s");
+}
+
+#[test]
+fn a_crawl_stops_after_the_cycle_or_at_once() {
+    let stopped_at = |halt: Halt, delivery: Delivery| {
+        let mut crawler = straight(9, AT_ONCE, delivery);
+        let mut commands = Vec::new();
+        for tick in 0..10_000 {
+            let time = f64::from(tick) * TICK;
+            if tick == 100 {
+                crawler.stop(halt);
+            }
+            let angles = crawler.first_pose().posture;
+            let command = crawler.tick(&senses(time, &angles)).unwrap();
+            commands.push(command);
+            if let Some(ended) = crawler.ended() {
+                assert_eq!(ended, Ended::Halted(halt));
+                return (time, crawler.commanded().unwrap().clone(), commands);
+            }
+        }
+        panic!("it does not stop");
+    };
+    let reference = straight(1, AT_ONCE, set_points());
+    let (time, posture, _) = stopped_at(Halt::AfterCycle, set_points());
+    assert!((time - 1.0).abs() < 1e-9, "{time} s");
+    assert_eq!(posture, reference.first_pose().posture);
+    // 0.25 s into the pull, its last set-point is that of 0.25 s.
+    for delivery in [set_points(), Delivery::Segments { every: EVERY }] {
+        let (time, posture, commands) = stopped_at(Halt::AtOnce, delivery);
+        assert!((time - 0.25).abs() < 1e-9, "{time} s");
+        let planned = reference.cycle().pull_at(0.25);
+        for (a, b) in posture.as_slice().iter().zip(planned.as_slice()) {
+            assert!((a - b).abs() < 1e-9, "{delivery:?}");
+        }
+        let last = commands.last().unwrap();
+        assert_eq!(*last, JointCommand::SetPoint(posture), "it is told to hold");
+    }
+}
+
+#[test]
+fn a_lying_robot_goes_to_the_extension_within_its_speeds() {
+    let speed = 0.5;
+    let begin = Begin::Lying { speed, rest: 0.2 };
+    let mut crawler = straight(1, begin, set_points());
+    let robot = robot();
+    let lying = JointAngles::zero(&robot);
+    let mut last = lying.clone();
+    let mut began = None;
+    for tick in 0..10_000 {
+        let time = f64::from(tick) * TICK;
+        let command = crawler.tick(&senses(time, &lying)).unwrap();
+        if crawler.events().contains(&Event::CycleBegan) {
+            began = Some(time);
+            break;
+        }
+        if let JointCommand::SetPoint(posture) = command {
+            let ways = posture.as_slice().iter().zip(last.as_slice());
+            for (joint, (to, from)) in robot.joints.iter().zip(ways) {
+                let rate = (to - from).abs() / EVERY;
+                assert!(rate <= speed * joint.speed_limit * 1.001, "{}", joint.name);
+            }
+            last = posture;
+        }
+    }
+    assert!(began.unwrap() > 0.5, "{began:?}");
+    assert_eq!(last, crawler.first_pose().posture);
+}
+
+/// Chooses a cycle by number, and remembers what it felt.
+#[derive(Default)]
+struct Choosing {
+    cycles: Vec<usize>,
+    decided: usize,
+    felt: usize,
+}
+
+impl Pilot for Choosing {
+    fn decide(&mut self, _: &Moment<'_>) -> Result<Decision, PilotError> {
+        let cycle = self.cycles[self.decided];
+        self.decided += 1;
+        Ok(Decision { cycle, turn: 0.0 })
+    }
+
+    fn feel(&mut self, _: &Moment<'_>) -> Result<(), PilotError> {
+        self.felt += 1;
+        Ok(())
+    }
+}
+
+#[test]
+fn the_pilot_decides_once_a_cycle_and_feels_every_tick() {
+    let program = program(
+        &[cycle("one"), cycle("two")],
+        3,
+        Begin::InExtension { rest: 0.1 },
+        set_points(),
+    );
+    let pilot = Choosing {
+        cycles: vec![1, 0, 1],
+        ..Choosing::default()
+    };
+    let mut crawler = crawler_of(program, pilot);
+    let mut names = Vec::new();
+    let mut angles = crawler.first_pose().posture;
+    let mut ticks = 0;
+    while crawler.ended().is_none() {
+        let time = f64::from(ticks) * TICK;
+        if let JointCommand::SetPoint(posture) = crawler.tick(&senses(time, &angles)).unwrap() {
+            angles = posture;
+        }
+        if crawler.events().contains(&Event::CycleBegan) {
+            names.push(crawler.cycle().name().to_owned());
+        }
+        ticks += 1;
+    }
+    assert_eq!(names, ["one", "two", "one"]);
+    assert_eq!(crawler.pilot.decided, 3);
+    assert_eq!(crawler.pilot.felt, ticks as usize);
+}
+
+#[test]
+fn an_error_names_the_cycle_that_it_is_about() {
+    let mut broken = cycle("broken");
+    broken.pull.upper_arm = Curve::linear(-0.6, 1.4).unwrap();
+    let program = program(&[cycle("good"), broken], 9, AT_ONCE, set_points());
+    let pilot = Choosing {
+        cycles: vec![0, 1],
+        ..Choosing::default()
+    };
+    let error = crawl(&mut crawler_of(program, pilot), whole).err().unwrap();
+    let CrawlerError::Cycle { cycle, gait, .. } = &error else {
+        panic!("{error}");
+    };
+    // The first decision is about the second cycle.
+    assert_eq!((*cycle, gait.as_str()), (3, "broken"), "{error}");
+    assert!(error.to_string().starts_with("in cycle 3: "), "{error}");
+}
+
+#[test]
+fn limit_senses_that_are_none() {
+    let robot = robot();
+    let good = straight(1, AT_ONCE, set_points()).first_pose().posture;
+    let short = JointAngles::from_vec(vec![0.0; 3]);
+    let mut unknown = good.clone();
+    unknown[robot.chain.left.knee] = f64::NAN;
+    for (time, angles, said) in [
+        (f64::NAN, &good, "after 0.5 s came NaN s"),
+        (0.4, &good, "after 0.5 s came 0.4 s"),
+        (0.6, &short, "there are 3 for 14 joints"),
+        (0.6, &unknown, "Lknee is at NaN rad"),
+    ] {
+        let mut crawler = straight(1, AT_ONCE, set_points());
+        crawler.tick(&senses(0.5, &good)).unwrap();
+        let error = crawler.tick(&senses(time, angles)).unwrap_err().to_string();
+        assert!(error.contains(said), "{error}");
+        assert!(error.contains("cycle 1 (only)"), "{error}");
+    }
+}
+
+#[test]
+fn who_follows_a_line_needs_a_bearing() {
+    let hold = || HoldLine {
+        hold: HeadingHold::new(0.2),
+    };
+    let program = program(&[cycle("only")], 2, AT_ONCE, set_points());
+    let error = crawl(&mut crawler_of(program.clone(), hold()), whole).err();
+    assert!(
+        matches!(
+            error,
+            Some(CrawlerError::Pilot {
+                cycle: 1,
+                source: PilotError::NoBearing,
+                ..
+            })
+        ),
+        "{error:?}"
+    );
+    // With one, a robot that is left of its line turns right.
+    let mut crawler = crawler_of(program, hold());
+    crawl(&mut crawler, |senses| {
+        senses.bearing = Some(Bearing {
+            y: 0.01,
+            ..Bearing::default()
+        });
+        Sensed::Whole
+    })
+    .unwrap();
+    assert!(crawler.cycle().turn() < 0.0, "{}", crawler.cycle().turn());
+}
+
+/// A robot whose trunk is pitched as on a slope, rad, uphill positive.
+fn on_slope(robot: &Robot, crawler_pitch: f64, slope: f64, senses: &mut Senses) {
+    let level = robot.level_pitch(&senses.angles, crawler_pitch).unwrap();
+    // Uphill its front is higher: it is pitched back, about -y.
+    let pitch = level - slope;
+    let up = DVec3::new(-pitch.sin(), 0.0, pitch.cos());
+    senses.inertial = InertialUnit::Reading(ImuReading {
+        angular_velocity: DVec3::ZERO,
+        specific_force: GRAVITY * up,
+    });
+}
+
+fn slope_aware(degrees: f64) -> SlopeAware<Straight> {
+    SlopeAware::new(Straight::default(), degrees.to_radians())
+}
+
+fn two_cycles() -> Program {
+    let cycles = [cycle("flat"), cycle("uphill")];
+    program(&cycles, 3, Begin::InExtension { rest: 0.3 }, set_points())
+}
+
+#[test]
+fn the_slope_that_is_felt_has_the_sign_of_the_slope() {
+    let robot = robot();
+    for slope in [-6.0_f64, 0.0, 6.0] {
+        let mut crawler = crawler_of(two_cycles(), slope_aware(3.0));
+        let pitch = crawler.first_pose().root_pitch;
+        crawl(&mut crawler, |senses| {
+            on_slope(&robot, pitch, slope.to_radians(), senses);
+            Sensed::Whole
+        })
+        .unwrap();
+        for felt in crawler.pilot.felt() {
+            // The filter follows the pull's own pitching with its time constant of a second.
+            let off = felt.to_degrees() - slope;
+            assert!(off.abs() < 3.0, "{off}° on {slope}°");
+        }
+        assert_eq!(crawler.pilot.felt().len(), 3);
+    }
+}
+
+/// A unit that fails, is taken away or reads nonsense in the second cycle ends the crawl there, and
+/// the error says so.
+#[test]
+fn a_failing_inertial_unit_is_an_error_and_never_silence() {
+    let robot = robot();
+    let nonsense = ImuReading {
+        angular_velocity: DVec3::new(0.0, f64::NAN, 0.0),
+        specific_force: DVec3::new(0.0, 0.0, GRAVITY),
+    };
+    let failed = InertialUnit::Failed {
+        reason: "no answer on bus 1".to_owned(),
+    };
+    for (bad, said) in [
+        (failed, "failed: no answer on bus 1"),
+        (InertialUnit::Absent, "no inertial unit"),
+        (InertialUnit::Reading(nonsense), "NaN"),
+    ] {
+        let mut crawler = crawler_of(two_cycles(), slope_aware(45.0));
+        let pitch = crawler.first_pose().root_pitch;
+        let error = crawl(&mut crawler, |senses| {
+            on_slope(&robot, pitch, 0.0, senses);
+            if senses.time > 1.4 {
+                senses.inertial = bad.clone();
+            }
+            Sensed::Whole
+        });
+        let error = error.err().unwrap().to_string();
+        assert!(error.starts_with("in cycle 2 (flat): "), "{error}");
+        assert!(error.contains(said), "{error}");
+    }
+    // One that is shaken all the time tells no slope, which is said when it is asked for.
+    let mut crawler = crawler_of(two_cycles(), slope_aware(45.0));
+    let error = crawl(&mut crawler, |senses| {
+        senses.inertial = InertialUnit::Reading(ImuReading {
+            angular_velocity: DVec3::ZERO,
+            specific_force: DVec3::new(0.0, 0.0, 3.0 * GRAVITY),
+        });
+        Sensed::Whole
+    });
+    assert!(
+        matches!(
+            error.as_ref().err(),
+            Some(CrawlerError::Pilot {
+                source: PilotError::NotFelt,
+                ..
+            })
+        ),
+        "{:?}",
+        error.err()
+    );
+}
+
+#[test]
+fn limit_beginnings() {
+    let robot = robot();
+    let refused = |begin: Begin| {
+        let program = program(&[cycle("only")], 1, begin, set_points());
+        Crawler::new(
+            Arc::clone(&robot),
+            robot.stops(),
+            program,
+            Straight::default(),
+        )
+        .err()
+    };
+    for speed in [0.0, -0.5, 1.1, f64::NAN] {
+        let error = refused(Begin::Lying { speed, rest: 0.0 });
+        assert!(
+            matches!(error, Some(CrawlerError::BeginSpeed { .. })),
+            "{error:?}"
+        );
+    }
+    for rest in [-0.1, 61.0, f64::NAN] {
+        let error = refused(Begin::InExtension { rest });
+        assert!(
+            matches!(error, Some(CrawlerError::Rest { .. })),
+            "{error:?}"
+        );
+    }
+    let none = program(&[], 1, AT_ONCE, set_points());
+    let error = Crawler::new(Arc::clone(&robot), robot.stops(), none, Straight::default()).err();
+    assert!(
+        matches!(
+            error,
+            Some(CrawlerError::NoCycle {
+                asked: 0,
+                cycles: 0
+            })
+        ),
+        "{error:?}"
+    );
+}
