@@ -421,7 +421,7 @@ fn an_error_names_the_cycle_that_it_is_about() {
 fn limit_senses_that_are_none() {
     let robot = robot();
     let good = straight(1, AT_ONCE, set_points()).first_pose().posture;
-    let short = JointAngles::from_vec(vec![0.0; 3]);
+    let short = JointAngles::from_fn(3, |_| 0.0);
     let mut unknown = good.clone();
     unknown[robot.chain.left.knee] = f64::NAN;
     for (time, angles, said) in [
