@@ -29,11 +29,11 @@ use mujoco_rs::prelude::{MjData, MjModel};
 
 use prone::robot::BodyId;
 
-pub(crate) use glass::GLASS_GROUP;
 pub use picture::{Picture, PictureError};
 
 use light::{Openness, Studio};
 use shade::{Looks, View};
+pub(crate) use trace::GLASS_GROUP;
 use trace::{Hit, Tracer};
 
 /// Rays per pixel beside an edge.

@@ -10,6 +10,7 @@ mod files;
 mod foreign;
 mod imu;
 mod limbs;
+mod lookup;
 mod markup;
 mod model;
 mod problem;
@@ -95,7 +96,7 @@ impl LoadedRobot {
             file: mjcf_name.clone(),
             problem,
         })?;
-        let robot = tables::Tables {
+        let robot = lookup::Lookup {
             file: &toml_name,
             text: &files.toml,
             mjcf: &mjcf_name,

@@ -5,7 +5,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::figures::Figure;
-use crate::output::Artefacts;
+use crate::output::{Artefacts, json};
 
 /// Name of the file.
 pub const FIGURES_FILE: &str = "figures.json";
@@ -53,9 +53,7 @@ impl FigureList {
     /// # Errors
     /// [`serde_json::Error`], which entries do not produce.
     pub fn finish(self, artefacts: &mut Artefacts) -> Result<(), serde_json::Error> {
-        let mut text = serde_json::to_vec_pretty(&self.0)?;
-        text.push(b'\n');
-        artefacts.insert(FIGURES_FILE.to_owned(), text);
+        artefacts.insert(FIGURES_FILE.to_owned(), json(&self.0)?);
         Ok(())
     }
 

@@ -5,11 +5,12 @@
 //! "optimal"; figures that compare gaits show every gait there is. What the records lack is left
 //! out: a panel, a curve or a whole figure.
 //!
-//! `style` is the look, `svg` and `font` draw, `axis`, `panel` and `sheet` lay out, `raster` makes
+//! `style` is the look, `svg` and `font` draw, `axis`, `bar`, `panel` and `sheet` lay out, `raster` makes
 //! pixels; `parameters`, `chain`, `torque`, `comparison` and `cost` are the figures. `torque_map` draws
 //! what the thesis does not: slices of a map, with the cells and colours of `heat`.
 
 mod axis;
+mod bar;
 mod chain;
 mod check;
 mod comparison;
@@ -40,6 +41,9 @@ pub use search::{
 use crate::record::{ChainRecord, CostRecord, PullRecord};
 use sheet::Sheet;
 pub use torque_map::figures as torque_map_figures;
+
+/// Pixels per unit of an SVG figure in the PNG that lies beside it.
+pub const PNG_SCALE: f32 = 2.0;
 
 /// One finished drawing.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -8,6 +8,8 @@ use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use serde::Serialize;
+
 use earlier::Standing;
 use staging::Staging;
 use target::{Parents, Target};
@@ -18,6 +20,13 @@ pub const RUN_FILE: &str = "run.json";
 
 /// The files of a result, by path relative to its folder.
 pub type Artefacts = BTreeMap<String, Vec<u8>>;
+
+/// A value as the text of a JSON file.
+pub(crate) fn json(value: &impl Serialize) -> Result<Vec<u8>, serde_json::Error> {
+    let mut text = serde_json::to_vec_pretty(value)?;
+    text.push(b'\n');
+    Ok(text)
+}
 
 /// Why a result folder cannot be made.
 #[derive(Debug, thiserror::Error)]

@@ -36,8 +36,8 @@ use serde::Serialize;
 pub use card::{Card, JointCard};
 pub use error::ReportError;
 
-use crate::output::{Artefacts, RUN_FILE};
-use crate::reproduce::{PNG_SCALE, json};
+use crate::figures::PNG_SCALE;
+use crate::output::{Artefacts, RUN_FILE, json};
 use crate::run_info::Program;
 use crawl_run::{CrawlRun, PullRun};
 use drawn_run::DrawnRun;

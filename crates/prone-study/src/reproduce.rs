@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 
 use rayon::prelude::*;
-use serde::Serialize;
 
 use prone_sim::{LoadedRobot, Regime, World, WorldError};
 
@@ -11,7 +10,7 @@ use crate::crawl::pull::PullRecording;
 use crate::crawl::record::{RecordError, Recording};
 use crate::figure_list::FigureList;
 use crate::frames::FramesError;
-use crate::output::{Artefacts, RUN_FILE};
+use crate::output::{Artefacts, RUN_FILE, json};
 use crate::recorded::Command;
 use crate::report::{PAGE_FILE, Report, ReportError};
 use crate::run_info::{Program, RunInfo};
@@ -59,9 +58,6 @@ pub enum ReproduceError {
     #[error("report: {0}")]
     Report(#[from] ReportError),
 }
-
-/// Pixels per unit of an SVG figure in its PNG.
-pub(crate) const PNG_SCALE: f32 = 2.0;
 
 /// How the report of a reproduction calls its own folder.
 const OWN_NAME: &str = "this folder";
@@ -112,7 +108,7 @@ pub fn run(
         .as_ref()
         .map_or_else(Vec::new, |result| result.experiments.clone());
     let summary = summary::of(&study, agreement, stories, experiments);
-    let info = RunInfo::of(robot, &world, plan, table, program);
+    let info = RunInfo::of(robot, &world, plan, table.map(TableStudy::info), program);
 
     let mut artefacts = Artefacts::new();
     for pull in &study.pulls {
@@ -226,10 +222,4 @@ fn below(folder: &str, files: Artefacts) -> Artefacts {
     named
         .map(|(name, bytes)| (format!("{folder}/{name}"), bytes))
         .collect()
-}
-
-pub(crate) fn json(value: &impl Serialize) -> Result<Vec<u8>, serde_json::Error> {
-    let mut text = serde_json::to_vec_pretty(value)?;
-    text.push(b'\n');
-    Ok(text)
 }

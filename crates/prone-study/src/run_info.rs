@@ -5,10 +5,9 @@ use std::borrow::Cow;
 use serde::{Deserialize, Serialize};
 
 use prone_sim::regime::{CONTROL_STEP, Effort, SERVO_RATE, SOLIMP, SOLREF, Stops, TIME_STEP};
-use prone_sim::{LoadedRobot, Regime, World};
+use prone_sim::{LoadedRobot, World};
 
 use crate::curves_info::CurvesInfo;
-use crate::table_crawl::TableStudy;
 use crate::torque_study::Plan;
 
 /// Which program made a result.
@@ -88,19 +87,6 @@ pub(crate) struct TableInfo {
     pub(crate) impratio: f64,
 }
 
-impl TableInfo {
-    fn of(study: &TableStudy) -> Self {
-        Self {
-            gait: study.gait.cycle.pull.name.clone(),
-            description: study.gait.cycle.pull.description.clone(),
-            scene: study.scene.name.clone(),
-            regime: Regime::LOCOMOTION.name.into(),
-            friction: Regime::LOCOMOTION.friction,
-            impratio: Regime::LOCOMOTION.impratio,
-        }
-    }
-}
-
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct GaitInfo {
     pub(crate) name: String,
@@ -116,7 +102,7 @@ impl RunInfo {
         robot: &LoadedRobot,
         world: &World,
         plan: &Plan,
-        table: Option<&TableStudy>,
+        table: Option<TableInfo>,
         program: &Program,
     ) -> Self {
         let regime = world.regime();
@@ -167,7 +153,7 @@ impl RunInfo {
                 solimp: SOLIMP,
                 start_posture: study.start_posture.clone(),
                 settle_s: prone_sim::pull::SETTLE,
-                table: table.map(TableInfo::of),
+                table,
             },
         }
     }

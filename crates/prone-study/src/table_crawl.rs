@@ -12,6 +12,7 @@ use prone_sim::{LoadedRobot, Regime, World, WorldError};
 
 use crate::crawl::{Conditions, CrawlSummary, GaitSource, summary};
 use crate::published::{TABLE_CRAWLS, TableCrawl};
+use crate::run_info::TableInfo;
 use crate::torque_study::Observer;
 
 /// How the published figures came about.
@@ -122,6 +123,19 @@ fn experiment(
 }
 
 impl TableStudy {
+    /// What is crawled and where, for `run.json` and the report.
+    pub(crate) fn info(&self) -> TableInfo {
+        let regime = Regime::LOCOMOTION;
+        TableInfo {
+            gait: self.gait.cycle.pull.name.clone(),
+            description: self.gait.cycle.pull.description.clone(),
+            scene: self.scene.name.clone(),
+            regime: regime.name.into(),
+            friction: regime.friction,
+            impratio: regime.impratio,
+        }
+    }
+
     /// Under which conditions an experiment was crawled.
     pub(crate) fn conditions(&self, experiment: &TableExperiment) -> Conditions {
         Conditions {

@@ -4,14 +4,12 @@ use prone::gait::cycle::Cycle;
 use prone_files::cycle_file;
 use prone_study::cycle_search::record::{self, Found, Frontier};
 use prone_study::figure_list::FigureList;
+use prone_study::figures::{PNG_SCALE, frontier_figure};
 use prone_study::optimize::search::Search;
 use prone_study::output::Artefacts;
 
 use super::Quest;
 use crate::Failure;
-
-/// Pixels per unit of an SVG figure in its PNG.
-const PNG_SCALE: f32 = 2.0;
 
 /// Tables, figure and cycles; of a named quest the best one as `gait.toml`.
 pub(super) fn artefacts(
@@ -39,7 +37,7 @@ pub(super) fn artefacts(
         artefacts.insert("gait.toml".into(), text.into_bytes());
     }
     let mut list = FigureList::default();
-    if let Some(figure) = record::figure(frontier) {
+    if let Some(figure) = frontier_figure(frontier) {
         let png = figure.png(PNG_SCALE).map_err(Failure::work)?;
         list.drawing(&mut artefacts, "figures/", figure, png);
     }

@@ -3,7 +3,7 @@
 use prone::gait::{CheckedTrajectory, Gait};
 use prone_files::gait_file;
 use prone_study::figure_list::FigureList;
-use prone_study::figures::{self, ConfirmedRecord, Scores, SearchRecord};
+use prone_study::figures::{self, ConfirmedRecord, PNG_SCALE, Scores, SearchRecord};
 use prone_study::optimize::confirm::{self, Confirmation};
 use prone_study::optimize::outcome::{self, Outcome};
 use prone_study::optimize::pricer::Aim;
@@ -16,9 +16,6 @@ use prone_study::{tables, torque_study};
 use super::report::sentence;
 use crate::Failure;
 use crate::pricing::Pricing;
-
-/// Pixels per unit of an SVG figure in its PNG.
-const PNG_SCALE: f32 = 2.0;
 
 /// The gait, the tables, the figures.
 pub(super) fn artefacts(

@@ -9,10 +9,6 @@ use super::shade::View;
 use super::trace::{Hit, Tracer};
 use super::{Frame, Lens};
 
-/// The group of geoms that are glass. The engine's viewer hides it, and so do robots' models.
-pub(crate) const GLASS_GROUP: i32 = 5;
-/// The same for the engine's rays.
-pub(super) const GROUPS: [u8; 6] = [0, 0, 0, 0, 0, 1];
 /// Places in a pixel, (0..1, 0..1): a turned square, so that flat edges get all their steps.
 const PLACES: [(f64, f64); 4] = [
     (0.375, 0.125),

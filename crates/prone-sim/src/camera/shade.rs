@@ -4,10 +4,9 @@ use glam::DVec3;
 use mujoco_rs::prelude::{MjModel, MjtGeomBase};
 
 use super::Camera;
-use super::glass::GLASS_GROUP;
 use super::light::{Openness, Studio};
 use super::picture::linear_from_srgb;
-use super::trace::Hit;
+use super::trace::{GLASS_GROUP, Hit};
 
 /// Light of the key lamp on a surface that faces it: slightly warm.
 const KEY: DVec3 = DVec3::new(0.80, 0.77, 0.72);

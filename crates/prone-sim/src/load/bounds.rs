@@ -4,8 +4,7 @@ use mujoco_rs::prelude::*;
 
 use prone::robot::bounds::{INERTIA, LENGTH, MASS};
 
-use super::model::label;
-use super::problem::ModelProblem;
+use super::problem::{ModelProblem, label};
 
 /// Checks lengths, masses and inertias of a compiled model.
 pub(super) fn check(model: &MjModel) -> Result<(), ModelProblem> {

@@ -3,8 +3,7 @@
 
 use mujoco_rs::prelude::*;
 
-use super::model::label;
-use super::problem::ModelProblem;
+use super::problem::{ModelProblem, label};
 
 /// The engine's body 0 is the world.
 const WORLD: i32 = 0;

@@ -5,15 +5,15 @@ use prone::robot::{BodyId, Imu, SensorNoise, bounds};
 use prone_files::FileError;
 use prone_files::robot_file::{ImuTable, Name};
 
+use super::lookup::Lookup;
 use super::model::Parts;
-use super::tables::Tables;
 
 /// The root, parents before children.
 const ROOT: BodyId = BodyId(0);
 
-pub(super) fn read(tables: &Tables<'_>, table: &ImuTable, parts: &Parts) -> Result<Imu, FileError> {
+pub(super) fn read(lookup: &Lookup<'_>, table: &ImuTable, parts: &Parts) -> Result<Imu, FileError> {
     let name = &table.site;
-    let (body, position) = tables.site(name, parts)?;
+    let (body, position) = lookup.site(name, parts)?;
     if body != ROOT {
         let message = format!(
             "site {} is on {}; the inertial unit must be on the root {}",
@@ -21,7 +21,7 @@ pub(super) fn read(tables: &Tables<'_>, table: &ImuTable, parts: &Parts) -> Resu
             parts.bodies[body.0].name,
             parts.bodies[ROOT.0].name
         );
-        return Err(tables.error(name, message));
+        return Err(lookup.error(name, message));
     }
     let sensors = parts.sensors.get(name.get_ref());
     let complete = sensors.filter(|sensors| sensors.accelerometer && sensors.gyroscope);
@@ -34,12 +34,12 @@ pub(super) fn read(tables: &Tables<'_>, table: &ImuTable, parts: &Parts) -> Resu
         };
         let message = format!(
             "{} has no {missing} at site {}",
-            tables.mjcf,
+            lookup.mjcf,
             name.get_ref()
         );
-        return Err(tables.error(name, message));
+        return Err(lookup.error(name, message));
     };
-    let bounded = |what, value, largest| within(tables, name, what, value, largest);
+    let bounded = |what, value, largest| within(lookup, name, what, value, largest);
     Ok(Imu {
         site: name.get_ref().clone(),
         // The root body's own frame is the root frame.
@@ -73,7 +73,7 @@ pub(super) fn read(tables: &Tables<'_>, table: &ImuTable, parts: &Parts) -> Resu
 
 /// A number from 0 to `largest`; NaN is in no range.
 fn within(
-    tables: &Tables<'_>,
+    lookup: &Lookup<'_>,
     place: &Name,
     what: &str,
     value: f64,
@@ -83,5 +83,5 @@ fn within(
         return Ok(value);
     }
     let message = format!("{what} must be within 0..{largest}, not {value}");
-    Err(tables.error(place, message))
+    Err(lookup.error(place, message))
 }

@@ -8,7 +8,7 @@ use mujoco_rs::prelude::*;
 use prone::frames::{Geom, Link, Point, Transform};
 use prone::robot::{Body, BodyId, ContactGroup, Joint, JointId, Range, Shape, Solid};
 
-use super::problem::ModelProblem;
+use super::problem::{ModelProblem, label};
 use super::{bounds, foreign};
 
 /// What the model says; drives and contact groups are still to be filled in.
@@ -210,13 +210,6 @@ fn read_sensors(model: &MjModel) -> BTreeMap<String, SiteSensors> {
         }
     }
     sites
-}
-
-/// The name of something that may have none.
-pub(super) fn label(model: &MjModel, kind: MjtObjBase, index: usize) -> String {
-    model
-        .id_to_name(kind, index)
-        .map_or_else(|| format!("number {index}"), str::to_owned)
 }
 
 fn name(

@@ -1,5 +1,7 @@
 //! What a valid model lacks to be a crawling robot.
 
+use mujoco_rs::prelude::*;
+
 /// Why a model that the engine accepts is not a robot here.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ModelProblem {
@@ -90,4 +92,11 @@ pub enum ModelProblem {
         /// The unit of both.
         unit: &'static str,
     },
+}
+
+/// How a problem calls something of the model: by its name, or by its number where it has none.
+pub(super) fn label(model: &MjModel, kind: MjtObjBase, index: usize) -> String {
+    model
+        .id_to_name(kind, index)
+        .map_or_else(|| format!("number {index}"), str::to_owned)
 }

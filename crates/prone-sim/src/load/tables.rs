@@ -1,18 +1,15 @@
-//! Joins `robot.toml` with the parts of the model; every name is looked up.
+//! Joins `robot.toml` with the parts of the model.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
-use std::fmt::Display;
 
 use glam::DVec3;
-use strsim::levenshtein;
 
 use prone::chain::ClosedChain;
-use prone::frames::{Link, Point};
 use prone::mapping::{self, MappingError};
 use prone::robot::{
-    BodyId, ChainLayout, ContactGroup, FixedArm, JointAngles, JointId, Motor, PublishedChain,
-    Range, Robot, SideLayout, StudySetup, bounds,
+    ChainLayout, ContactGroup, FixedArm, JointAngles, Motor, PublishedChain, Range, Robot,
+    SideLayout, StudySetup, bounds,
 };
 use prone_files::FileError;
 use prone_files::robot_file::{
@@ -20,17 +17,11 @@ use prone_files::robot_file::{
     RobotFile, SideTable, StudyTable,
 };
 
+use super::lookup::Lookup;
 use super::model::Parts;
 use super::{imu, limbs};
 
-/// The TOML file that errors point into, and the model's name for their text.
-pub(super) struct Tables<'a> {
-    pub(super) file: &'a str,
-    pub(super) text: &'a str,
-    pub(super) mjcf: &'a str,
-}
-
-impl Tables<'_> {
+impl Lookup<'_> {
     pub(super) fn assemble(&self, table: RobotFile, mut parts: Parts) -> Result<Robot, FileError> {
         self.group_bodies(&table.contacts, &mut parts)?;
         self.equip_joints(&table.drives, &table.motors, &mut parts)?;
@@ -64,95 +55,6 @@ impl Tables<'_> {
         mapping::check_kinematics(&robot)
             .map_err(|error| self.error(place_of(&error, &table.chain), error))?;
         Ok(robot)
-    }
-
-    pub(super) fn error(&self, place: &Name, message: impl Display) -> FileError {
-        RobotFile::error_at(self.file, self.text, place, &message.to_string())
-    }
-
-    /// An error for a name that the model lacks, with the nearest one that it has.
-    fn unknown<'n>(
-        &self,
-        place: &Name,
-        kind: &str,
-        known: impl Iterator<Item = &'n str>,
-    ) -> FileError {
-        let name = place.get_ref();
-        let nearest = known.min_by_key(|candidate| levenshtein(candidate, name));
-        let hint = match nearest {
-            Some(nearest) if levenshtein(nearest, name) <= 3 => {
-                format!("; did you mean {nearest}?")
-            }
-            _ => String::new(),
-        };
-        self.error(
-            place,
-            format!("{kind} {name} is not in {}{hint}", self.mjcf),
-        )
-    }
-
-    fn joint(&self, name: &Name, parts: &Parts) -> Result<JointId, FileError> {
-        let mut joints = parts.joints.iter();
-        joints
-            .position(|joint| joint.name == *name.get_ref())
-            .map(JointId)
-            .ok_or_else(|| {
-                self.unknown(name, "joint", parts.joints.iter().map(|j| j.name.as_str()))
-            })
-    }
-
-    fn body(&self, name: &Name, parts: &Parts) -> Result<BodyId, FileError> {
-        let mut bodies = parts.bodies.iter();
-        bodies
-            .position(|body| body.name == *name.get_ref())
-            .map(BodyId)
-            .ok_or_else(|| self.unknown(name, "body", parts.bodies.iter().map(|b| b.name.as_str())))
-    }
-
-    pub(super) fn site(
-        &self,
-        name: &Name,
-        parts: &Parts,
-    ) -> Result<(BodyId, Point<Link>), FileError> {
-        parts
-            .sites
-            .get(name.get_ref())
-            .copied()
-            .ok_or_else(|| self.unknown(name, "site", parts.sites.keys().map(String::as_str)))
-    }
-
-    /// A positive number up to `largest`.
-    fn positive(
-        &self,
-        place: &Name,
-        what: &str,
-        value: f64,
-        largest: f64,
-    ) -> Result<f64, FileError> {
-        if value > 0.0 && value <= largest {
-            return Ok(value);
-        }
-        let message = if value > largest && value.is_finite() {
-            format!("{what} must be at most {largest}, not {value}")
-        } else {
-            format!("{what} must be positive and finite, not {value}")
-        };
-        Err(self.error(place, message))
-    }
-
-    /// A length in mm, as metres.
-    fn length(&self, place: &Name, what: &str, mm: f64) -> Result<f64, FileError> {
-        Ok(self.positive(place, what, mm, bounds::LENGTH * 1e3)? * 1e-3)
-    }
-
-    /// An angle in degrees, as radians.
-    fn angle(&self, place: &Name, what: &str, degrees: f64) -> Result<f64, FileError> {
-        let radians = degrees.to_radians();
-        if radians.abs() <= bounds::ANGLE {
-            return Ok(radians);
-        }
-        let message = format!("{what} must be within -360..360, not {degrees}");
-        Err(self.error(place, message))
     }
 
     fn group_bodies(&self, contacts: &ContactTable, parts: &mut Parts) -> Result<(), FileError> {

@@ -10,11 +10,10 @@ use super::summary::CrawlSummary;
 use super::tables::Instant;
 use super::{frames, model, tables};
 use crate::figure_list::FigureList;
-use crate::figures::{self, AngleRecord, FigureError};
+use crate::figures::{self, AngleRecord, FigureError, PNG_SCALE};
 use crate::frames::FramesError;
-use crate::output::{Artefacts, RUN_FILE};
+use crate::output::{Artefacts, RUN_FILE, json};
 use crate::recorded::{CONTACTS_FILE, Command, Extent, MODEL_FILE, ROWS_FILE};
-use crate::reproduce::{PNG_SCALE, json};
 use crate::run_info::Program;
 
 /// Why a record has no files.

@@ -1,11 +1,10 @@
-//! What a frontier leaves behind: `result.json`, `frontier.csv`, `history.csv`, its figure.
+//! What a frontier leaves behind: `result.json`, `frontier.csv`, `history.csv`.
 
 use prone::gait::cycle::Cycle;
 use serde::Serialize;
 
 use super::frontier::{Confirmed, ConfirmedSetting};
 use super::price::CyclePrice;
-use crate::figures::{self, Figure};
 use crate::optimize::search::Search;
 use crate::tables::{finish, number};
 
@@ -177,9 +176,4 @@ pub fn history_csv(
         }
     }
     finish(table)
-}
-
-/// The ceiling against what was reached below it; `None` where nothing was.
-pub fn figure(frontier: &Frontier) -> Option<Figure> {
-    figures::frontier_figure(frontier)
 }

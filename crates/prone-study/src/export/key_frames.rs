@@ -5,6 +5,8 @@ use serde::Serialize;
 use prone::gait::cycle::{CheckedCycle, CycleError, RecoveryPath};
 use prone::robot::{JointAngles, Robot};
 
+use crate::output;
+
 /// Time between two places where a key frame of a file may be, s: that of the motor boards.
 pub const TICK: f64 = 0.01;
 
@@ -113,9 +115,7 @@ pub fn json(
             })
             .collect(),
     };
-    let mut text = serde_json::to_vec_pretty(&file)?;
-    text.push(b'\n');
-    Ok(text)
+    output::json(&file)
 }
 
 #[derive(Serialize)]

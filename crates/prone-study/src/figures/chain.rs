@@ -1,8 +1,9 @@
 //! Figures 26 and 34: the planned closed chain at several instants, seen from the side.
 
 use super::axis::Axis;
+use super::bar::{Bar, ColourBar};
 use super::panel::{Aspect, Curve, Note, Panel, Rule};
-use super::sheet::{Bar, ColourBar, Sheet};
+use super::sheet::Sheet;
 use super::style::{Fill, INK, Marker, Shape, Stroke};
 use super::svg::{Anchor, Point};
 use super::{Figure, Wording, sentence};

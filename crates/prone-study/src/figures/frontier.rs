@@ -12,7 +12,7 @@ use crate::cycle_search::frontier::ConfirmedSetting;
 use crate::cycle_search::record::{Found, Frontier};
 use crate::cycle_search::setting::SettingKind;
 
-/// `None` where nothing was found.
+/// The ceiling against what was reached below it; `None` where nothing was found.
 pub fn figure(frontier: &Frontier) -> Option<Figure> {
     let advance = panel(
         frontier,

@@ -1,22 +1,14 @@
-//! Heat maps: cells coloured by a quantity of either sign, and what the colours mean.
+//! Heat maps: cells coloured by a quantity of either sign.
 //!
 //! Cells without a value are grey and hatched, so that none of them passes for a small value.
 
-use super::axis::Axis;
-use super::sheet::bar_label;
-use super::style::{Colour, HATCHING, INK, NOTHING, SMALL_SIZE, Stroke, diverging};
-use super::svg::{Anchor, Canvas, Rect, TextStyle};
+use super::bar::HeatScale;
+use super::style::{HATCHING, NOTHING, Stroke};
+use super::svg::{Canvas, Rect};
 
 /// How far an area reaches under the next one: coordinates are rounded, and paper must not show
 /// between the two.
 const OVERLAP: f64 = 0.5;
-
-/// A diverging scale around zero.
-#[derive(Debug, Clone)]
-pub(super) struct HeatScale {
-    /// From −limit to +limit, with quantity and unit.
-    axis: Axis,
-}
 
 /// The cells of a heat map, all of the same size.
 #[derive(Debug, Clone)]
@@ -25,55 +17,6 @@ pub(super) struct Cells {
     /// From the lowest row to the highest, each from left to right.
     pub(super) values: Vec<Option<f64>>,
     pub(super) scale: HeatScale,
-}
-
-impl HeatScale {
-    /// The scale on which all values fit, and as much of the other sign.
-    pub(super) fn covering(label: &str, values: impl Iterator<Item = f64>) -> Self {
-        let limit = values.map(f64::abs).fold(0.0, f64::max);
-        let round = Axis::covering(label, [-limit, limit]);
-        let axis = Axis::exactly(label, -round.high, round.high);
-        Self { axis }
-    }
-
-    fn colour(&self, value: f64) -> Colour {
-        diverging(value / self.axis.high)
-    }
-
-    /// Draws the scale as an upright bar.
-    pub(super) fn draw(&self, canvas: &mut Canvas, area: Rect) {
-        /// Bands of the bar: more than an eye tells apart.
-        const BANDS: usize = 100;
-        /// Length of a tick.
-        const TICK: f64 = 4.0;
-        let height = area.height / BANDS as f64;
-        canvas.crisp(|canvas| {
-            for band in 0..BANDS {
-                let share = (band as f64 + 0.5) / BANDS as f64;
-                let top = area.bottom() - (band + 1) as f64 * height;
-                let value = self.axis.low + share * (self.axis.high - self.axis.low);
-                canvas.fill(
-                    Rect {
-                        top,
-                        height,
-                        ..area
-                    },
-                    self.colour(value),
-                );
-            }
-        });
-        canvas.outline(area, Stroke::solid(INK, 1.0));
-        let ticks = self.axis.ticks(10).major;
-        for (value, label) in &ticks {
-            let y = area.bottom() - self.axis.fraction(*value) * area.height;
-            let ink = Stroke::solid(INK, 1.0);
-            canvas.line((area.right(), y), (area.right() + TICK, y), ink);
-            let at = (area.right() + TICK + 3.0, y + SMALL_SIZE * 0.35);
-            canvas.text(at, label, TextStyle::new(SMALL_SIZE, Anchor::Start));
-        }
-        let values = ticks.iter().map(|tick| tick.1.as_str());
-        bar_label(canvas, area, &self.axis.label, values);
-    }
 }
 
 impl Cells {

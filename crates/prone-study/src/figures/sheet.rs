@@ -2,12 +2,11 @@
 //!
 //! The key stands above the panels and the bar beside them, so that neither covers a curve.
 
+use super::bar::Bar;
 use super::font::{self, Weight};
-use super::heat::{self, HeatScale};
+use super::heat;
 use super::panel::Panel;
-use super::style::{
-    Colour, INK, Marker, SHEET_WIDTH, SMALL_SIZE, Stroke, TEXT_SIZE, TITLE_SIZE, step_colour,
-};
+use super::style::{Colour, INK, Marker, SHEET_WIDTH, Stroke, TEXT_SIZE, TITLE_SIZE};
 use super::svg::{Anchor, Canvas, Point, Rect, TextStyle};
 
 /// Paper around everything.
@@ -22,8 +21,6 @@ const BESIDE: f64 = 18.0;
 const KEY_LINE: f64 = 22.0;
 /// Length of a line's sample in the key.
 const SAMPLE: f64 = 34.0;
-/// Height of one step of the colour bar, at most.
-const HIGHEST_BAND: f64 = 70.0;
 /// Width kept for the colour bar.
 const BAR_SPACE: f64 = 84.0;
 
@@ -60,24 +57,6 @@ pub(super) enum Sample {
     Hatched,
 }
 
-/// What the colours mean.
-#[derive(Debug, Clone)]
-pub(super) enum Bar {
-    /// Of curves.
-    Steps(ColourBar),
-    /// Of the cells of a heat map.
-    Scale(HeatScale),
-}
-
-/// Colours of the steps of a quantity.
-#[derive(Debug, Clone)]
-pub(super) struct ColourBar {
-    /// Quantity and unit.
-    pub(super) label: String,
-    /// One band each, from the dark end to the light one.
-    pub(super) steps: Vec<String>,
-}
-
 impl Sheet {
     /// The drawing as SVG.
     pub(super) fn draw(&self, stem: &str, title: &str, description: &str) -> String {
@@ -97,10 +76,7 @@ impl Sheet {
         self.draw_panels(&mut canvas, top);
         if let Some(bar) = &self.bar {
             let (top, bottom) = (top + ABOVE, height - MARGIN / 2.0 - BELOW);
-            match bar {
-                Bar::Steps(bar) => bar.draw(&mut canvas, top, bottom),
-                Bar::Scale(scale) => scale.draw(&mut canvas, bar_area(top, bottom)),
-            }
+            bar.draw(&mut canvas, bar_area(top, bottom));
         }
         canvas.finish(title, description)
     }
@@ -200,41 +176,6 @@ impl KeyEntry {
     }
 }
 
-impl ColourBar {
-    /// Colour of the band `index`.
-    pub(super) fn colour(&self, index: usize) -> Colour {
-        step_colour(index, self.steps.len())
-    }
-
-    /// Draws the bar from `top` to `bottom`, or less far if its steps are few.
-    fn draw(&self, canvas: &mut Canvas, top: f64, bottom: f64) {
-        let count = self.steps.len().max(1) as f64;
-        let band = ((bottom - top) / count).min(HIGHEST_BAND);
-        let (middle, height) = (f64::midpoint(top, bottom), count * band);
-        let area = bar_area(middle - height / 2.0, middle + height / 2.0);
-        for (index, step) in self.steps.iter().enumerate() {
-            let top = area.bottom() - (index as f64 + 1.0) * band;
-            canvas.fill(
-                Rect {
-                    top,
-                    height: band,
-                    ..area
-                },
-                self.colour(index),
-            );
-            let at = (area.right() + 6.0, top + band / 2.0 + SMALL_SIZE * 0.35);
-            canvas.text(at, step, TextStyle::new(SMALL_SIZE, Anchor::Start));
-        }
-        canvas.outline(area, Stroke::solid(INK, 1.0));
-        bar_label(
-            canvas,
-            area,
-            &self.label,
-            self.steps.iter().map(String::as_str),
-        );
-    }
-}
-
 /// Where a bar stands, beside the panels.
 fn bar_area(top: f64, bottom: f64) -> Rect {
     Rect {
@@ -243,20 +184,4 @@ fn bar_area(top: f64, bottom: f64) -> Rect {
         width: 16.0,
         height: bottom - top,
     }
-}
-
-/// Writes what a bar means beside the labels of its values.
-pub(super) fn bar_label<'a>(
-    canvas: &mut Canvas,
-    area: Rect,
-    label: &str,
-    values: impl Iterator<Item = &'a str>,
-) {
-    let widest = values.map(|value| font::width(value, SMALL_SIZE, Weight::Regular));
-    let at = (
-        area.right() + 6.0 + widest.fold(0.0, f64::max) + 4.0 + TEXT_SIZE,
-        area.top + area.height / 2.0,
-    );
-    let style = TextStyle::new(TEXT_SIZE, Anchor::Middle).upward();
-    canvas.text(at, label, style);
 }

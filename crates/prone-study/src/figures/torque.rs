@@ -1,8 +1,9 @@
 //! Figures 36 to 43: joint torque of one gait, by duration and by joint.
 
 use super::axis::Axis;
+use super::bar::{Bar, ColourBar};
 use super::panel::{Curve, Note, Panel, Rule};
-use super::sheet::{Bar, ColourBar, KeyEntry, Sheet};
+use super::sheet::{KeyEntry, Sheet};
 use super::style::{
     CURVE_WIDTH, Dash, Fill, INK, JOINT_STROKES, Marker, SMALL_MARKER_RADIUS, Shape, Stroke,
 };

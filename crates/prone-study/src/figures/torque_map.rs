@@ -3,9 +3,10 @@
 use prone::torque_map::{Axis as Nodes, Row, TorqueMap};
 
 use super::axis::Axis;
-use super::heat::{Cells, HeatScale};
+use super::bar::{Bar, HeatScale};
+use super::heat::Cells;
 use super::panel::Panel;
-use super::sheet::{Bar, KeyEntry, Sample, Sheet};
+use super::sheet::{KeyEntry, Sample, Sheet};
 use super::torque::TORQUE_LABEL;
 use super::{Figure, FigureError, Wording, check};
 use crate::record::JOINTS;

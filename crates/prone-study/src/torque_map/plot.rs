@@ -5,9 +5,8 @@ use serde::Serialize;
 use prone::torque_map::TorqueMap;
 
 use crate::figure_list::FigureList;
-use crate::figures::{self, FigureError};
-use crate::output::{Artefacts, RUN_FILE};
-use crate::reproduce::{PNG_SCALE, json};
+use crate::figures::{self, FigureError, PNG_SCALE};
+use crate::output::{Artefacts, RUN_FILE, json};
 use crate::run_info::Program;
 
 /// Slices that are drawn where none are asked for.
