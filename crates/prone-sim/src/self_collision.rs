@@ -294,7 +294,7 @@ fn limbs(robot: &Robot) -> Vec<Option<Limb>> {
     for (index, body) in robot.bodies.iter().enumerate() {
         let beyond = ends
             .iter()
-            .filter(|(_, end)| hangs_on(robot, *end, BodyId(index)));
+            .filter(|(_, end)| robot.moves_with(*end, BodyId(index)));
         let mut leads_to: Vec<Limb> = beyond.map(|(limb, _)| *limb).collect();
         leads_to.dedup();
         limbs[index] = match (leads_to.as_slice(), body.parent) {
@@ -305,18 +305,6 @@ fn limbs(robot: &Robot) -> Vec<Option<Limb>> {
         };
     }
     limbs
-}
-
-/// Whether `body` is `ancestor` or moves with it.
-fn hangs_on(robot: &Robot, body: BodyId, ancestor: BodyId) -> bool {
-    let mut next = Some(body);
-    while let Some(id) = next {
-        if id == ancestor {
-            return true;
-        }
-        next = robot.bodies[id.0].parent;
-    }
-    false
 }
 
 #[cfg(test)]

@@ -13,6 +13,7 @@ mod shape;
 #[cfg(test)]
 pub(crate) mod testing;
 mod tops;
+mod tree;
 
 pub use imu::{Imu, SensorNoise};
 pub use kinematics::BodyPoses;

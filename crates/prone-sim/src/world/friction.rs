@@ -52,7 +52,7 @@ fn sides(robot: &Robot) -> Vec<Side> {
         .map(|body| {
             limbs
                 .iter()
-                .find(|(_, root)| line(robot, BodyId(body)).any(|above| above == *root))
+                .find(|(_, root)| robot.moves_with(BodyId(body), *root))
                 .map_or(Side::Middle, |(side, _)| *side)
         })
         .collect()
@@ -60,17 +60,12 @@ fn sides(robot: &Robot) -> Vec<Side> {
 
 /// The first body of the limb that holds `joint` and not `other`.
 fn limb(robot: &Robot, joint: JointId, other: JointId) -> BodyId {
-    let body = robot.joints[joint.0].body;
-    let other: Vec<BodyId> = line(robot, robot.joints[other.0].body).collect();
-    line(robot, body)
-        .take_while(|body| !other.contains(body))
+    let [body, other] = [joint, other].map(|joint| robot.joints[joint.0].body);
+    robot
+        .up_to_root(body)
+        .take_while(|above| !robot.moves_with(other, *above))
         .last()
         .unwrap_or(body)
-}
-
-/// A body and all above it, up to the root.
-fn line(robot: &Robot, body: BodyId) -> impl Iterator<Item = BodyId> {
-    std::iter::successors(Some(body), |body| robot.bodies[body.0].parent)
 }
 
 #[cfg(test)]

@@ -187,7 +187,7 @@ fn check_order(
         let [(inner, ancestor), (outer, body)] = *pair else {
             continue;
         };
-        if !robot.hangs_on(body, ancestor) {
+        if !robot.moves_with(body, ancestor) {
             return Err(LimbError::Loose { side, outer, inner });
         }
     }
@@ -214,20 +214,6 @@ fn check_sides(robot: &Robot) -> Result<(), LimbError> {
         }
     }
     Ok(())
-}
-
-impl Robot {
-    /// Whether `body` is `ancestor` or moves with it.
-    pub fn hangs_on(&self, body: BodyId, ancestor: BodyId) -> bool {
-        let mut next = Some(body);
-        while let Some(id) = next {
-            if id == ancestor {
-                return true;
-            }
-            next = self.bodies[id.0].parent;
-        }
-        false
-    }
 }
 
 #[cfg(test)]

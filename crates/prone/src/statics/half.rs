@@ -337,13 +337,7 @@ fn shapes_of(robot: &Robot, body: BodyId) -> impl Iterator<Item = (usize, &Shape
 /// Whether a body hangs on the forearm's hinges.
 fn is_beyond_elbow(robot: &Robot, body: BodyId) -> bool {
     let hinges = robot.chain.sides().map(|side| side.forearm[0]);
-    let mut ancestor = Some(body);
-    while let Some(id) = ancestor {
-        let body = &robot.bodies[id.0];
-        if body.joint.is_some_and(|joint| hinges.contains(&joint)) {
-            return true;
-        }
-        ancestor = body.parent;
-    }
-    false
+    hinges
+        .iter()
+        .any(|hinge| robot.moves_with(body, robot.joints[hinge.0].body))
 }
