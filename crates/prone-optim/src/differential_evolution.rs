@@ -20,7 +20,8 @@
 //! best of an earlier population and cannot be expected to overtake it (`surrender`). The run
 //! keeps the best of all.
 //!
-//! **Why small and many.** On the crawl with its hip rule at 13.7 mm (THEORY.md §6) the first
+//! **Why small and many.** On the published problem (Bell 2015, chapter IV) with its hip rule
+//! lowered to 13.7 mm (`docs/decisions/0007-optimisers.md`) the first
 //! population already holds a feasible gait, and still most searches end in the neighbouring
 //! basins (0.7249, 0.7265 beside 0.7003): the torque itself has several minima, and neither
 //! plateaus nor a narrow feasible set are to blame. Run to its end, a population of 15, 30, 60,

@@ -191,9 +191,9 @@ fn recorded(file: &str) -> Option<TorqueMap> {
     }
 }
 
-/// Best costs known before (THEORY.md §6): 32001.551 on the table of 5°, 14001.552 on that of 2.5°,
-/// and 0.7003 with the hip rule at 13.7 mm and a tolerance of 1e-4 rad. Three seeds of the twenty
-/// that were measured (decision 7), with the same 100,000 evaluations.
+/// Best costs known before (`docs/decisions/0007-optimisers.md`): 32001.551 on the table of 5°,
+/// 14001.552 on that of 2.5°, and 0.7003 with the hip rule at 13.7 mm and a tolerance of 1e-4 rad.
+/// Three seeds of the twenty that were measured there, with the same 100,000 evaluations.
 #[test]
 fn reference_searches_of_the_published_problem_reach_the_best_known() {
     let lowered = PublishedRules {

@@ -19,7 +19,7 @@ use super::static_pricing::StaticPricing;
 use crate::torque_map::{NodeGrid, NodeGridError};
 
 /// Grid of the table that the statics fills for the published objective: the finer published one,
-/// with θ4 up to where the published gaits go (THEORY.md §5), degrees.
+/// with θ4 up to where the published gaits go (Bell 2015, table 2: 27.5°), degrees.
 const STEP_DEG: f64 = 2.5;
 const THETA4_MAX_DEG: f64 = 27.5;
 

@@ -1,7 +1,7 @@
 //! The objective of the published optimisation, to the digit.
 //!
 //! A gait is three cubics over the phase, their constant terms fixed by the start; 101 samples,
-//! dt = 0.01, T = 1 s (Bell 2015; THEORY.md §6):
+//! dt = 0.01, T = 1 s (Bell 2015, master's thesis, NYU Polytechnic, chapter IV):
 //!
 //! ```text
 //! p(s) = ((c3 s + c2) s + c1) s + c0,     s_k = k/100, k = 0…100

@@ -3,7 +3,8 @@ use proptest::prelude::*;
 use super::*;
 use crate::torque_map::TorqueGap;
 
-/// THEORY.md §2.
+/// The chain of the NAO that Bell 2015 prints (master's thesis, NYU Polytechnic; IROS 2015,
+/// doi 10.1109/IROS.2015.7354220).
 const NAO: ClosedChain = ClosedChain {
     toe_to_ankle: 0.10385,
     ankle_to_knee: 0.1029,
@@ -71,7 +72,8 @@ fn identity_norms_of_constant_torques() {
     assert!((price(&Norm::Heat { nominal: [2.0; 4] }).torque - 1.3125).abs() < 1e-12);
 }
 
-/// Every sample of the nominal gait has its hip below 40 mm (THEORY.md §2: 14 to 32 mm).
+/// Every sample of the nominal gait has its hip below 40 mm (14 to 32 mm by the
+/// chain of Bell 2015).
 #[test]
 fn reference_the_nominal_hip_is_below_40_mm_throughout() {
     let price = priced(&nominal(), 0.040, f64::INFINITY, &SQUARES);

@@ -3,7 +3,8 @@ use proptest::prelude::*;
 use super::*;
 use crate::torque_map::{self, Axis, Mask, Row};
 
-/// THEORY.md §2.
+/// The chain of the NAO that Bell 2015 prints (master's thesis, NYU Polytechnic; IROS 2015,
+/// doi 10.1109/IROS.2015.7354220).
 const NAO: ClosedChain = ClosedChain {
     toe_to_ankle: 0.10385,
     ankle_to_knee: 0.1029,
@@ -12,7 +13,7 @@ const NAO: ClosedChain = ClosedChain {
     shoulder_to_elbow: 0.08975,
     span: 0.430,
 };
-/// THEORY.md §3, Table 3; the objective supplies its own constant terms.
+/// Bell 2015, chapter V, table 3; the objective supplies its own constant terms.
 const TABLE_3: Coefficients = Coefficients([
     [0.2365, 0.0893, -0.3267],
     [1.8796, -0.1365, -1.7434],
@@ -178,7 +179,8 @@ fn recorded(file: &str) -> Option<TorqueMap> {
     }
 }
 
-/// Values of THEORY.md §6.
+/// The published objective (Bell 2015, chapter IV) on the two tables that its author recorded, as
+/// another program computed it.
 #[test]
 fn reference_published_costs() {
     for (file, nominal, table_3) in [
@@ -197,7 +199,8 @@ fn reference_published_costs() {
     }
 }
 
-/// THEORY.md §5.
+/// Rows that were counted in the files of the author: a grid of 2.5° (Bell 2015, chapter IV) that goes
+/// on to θ4 = 27.5°, and one of 5° up to 15°, on which the published optimum was found.
 #[test]
 fn reference_shape_of_the_recorded_tables() {
     for (file, rows, mirrored) in [
