@@ -3,6 +3,12 @@
 /** What this script reads. */
 export const FORMAT_VERSION = 1;
 
+/** Parts of the body whose highest points are recorded, as the columns `<part>_top_mm` call them. */
+export const BODY_PARTS = ["head", "trunk", "arms", "legs", "feet"] as const;
+
+/** Groups of the body whose contacts are recorded, as the columns `<group>_n` call them. */
+export const CONTACT_GROUPS = ["toe", "elbow", "torso", "leg"] as const;
+
 export type Vec3 = [number, number, number];
 /** Real part first. */
 export type Quat = [number, number, number, number];
@@ -20,7 +26,7 @@ export interface BodyModel {
   position: Vec3;
   quaternion: Quat;
   joint: JointModel | null;
-  /** kg; records before this was written do not have it. */
+  /** kg; the reader of records does not insist on it. */
   mass?: number;
   /** In the body's own frame, m. */
   centre_of_mass?: Vec3;

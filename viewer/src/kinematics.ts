@@ -4,7 +4,7 @@
 // angle about an axis through its anchor, both in the body's own frame.
 
 import { Matrix4, Quaternion, Vector3 } from "three";
-import type { BodyModel, Run, SideModel, Site } from "./data";
+import { BODY_PARTS, type BodyModel, type Run, type SideModel, type Site } from "./data";
 
 /** The links of the planar chain, from the toe to the elbow. */
 export const CHAIN = ["toe", "ankle", "knee", "hip", "shoulder", "elbow"] as const;
@@ -33,9 +33,9 @@ export class Posture {
       this.jointBody.set(body.joint.name, index);
       return run.channel(`${body.joint.name}_rad`);
     });
-    this.tops = ["head", "trunk", "arms", "legs", "feet"]
-      .map((part) => run.channel(`${part}_top_mm`))
-      .filter((channel) => channel !== undefined);
+    this.tops = BODY_PARTS.map((part) => run.channel(`${part}_top_mm`)).filter(
+      (channel) => channel !== undefined,
+    );
   }
 
   /** Moves every body to where it is at a time. */

@@ -2,7 +2,7 @@
 
 import uPlot from "uplot";
 import type { Clock } from "./clock";
-import type { Run } from "./data";
+import { BODY_PARTS, CONTACT_GROUPS, type Run } from "./data";
 import { Ruler } from "./ruler";
 import { theme } from "./theme";
 
@@ -29,7 +29,7 @@ function jointCurves(side: Side, suffix: string): Curve[] {
   }));
 }
 
-function columns(names: string[], suffix: string): Curve[] {
+function columns(names: readonly string[], suffix: string): Curve[] {
   return names.map((label) => ({ label, of: (run) => run.channel(`${label}_${suffix}`) }));
 }
 
@@ -48,9 +48,9 @@ function kinds(side: Side): Kind[] {
     {
       title: "Highest points (mm)",
       digits: 0,
-      curves: [...columns(["head", "trunk", "arms", "legs", "feet"], "top_mm"), CEILING],
+      curves: [...columns(BODY_PARTS, "top_mm"), CEILING],
     },
-    { title: "Force of the floor (N)", digits: 0, curves: columns(["toe", "elbow", "torso", "leg"], "n") },
+    { title: "Force of the floor (N)", digits: 0, curves: columns(CONTACT_GROUPS, "n") },
   ];
 }
 

@@ -66,6 +66,8 @@ fn in_script(json: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use prone::robot::{BodyPart, ContactGroup};
+
     use super::*;
 
     #[test]
@@ -84,5 +86,17 @@ mod tests {
         for said in ["three ", "uplot ", "MIT License", "Copyright"] {
             assert!(head.contains(said), "{said}");
         }
+    }
+
+    /// The browser's side reads columns by these names.
+    #[test]
+    fn the_viewer_lists_the_same_parts_and_groups() {
+        let data = include_str!("../../../viewer/src/data.ts");
+        let listed = |list: &str, names: &[&str]| {
+            let line = format!("export const {list} = {names:?} as const;");
+            assert!(data.contains(&line), "{line}");
+        };
+        listed("BODY_PARTS", &BodyPart::ALL.map(BodyPart::name));
+        listed("CONTACT_GROUPS", &ContactGroup::ALL.map(ContactGroup::name));
     }
 }

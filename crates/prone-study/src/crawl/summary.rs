@@ -359,4 +359,12 @@ impl TopsMm {
             .into_iter()
             .fold(f64::NEG_INFINITY, f64::max)
     }
+
+    /// The part that reaches highest, and how high, mm.
+    pub fn highest_part(self) -> (BodyPart, f64) {
+        let parts = BodyPart::ALL.into_iter().zip(self.to_array());
+        parts
+            .max_by(|a, b| a.1.total_cmp(&b.1))
+            .unwrap_or((BodyPart::Trunk, f64::NEG_INFINITY))
+    }
 }

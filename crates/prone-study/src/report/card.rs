@@ -93,13 +93,7 @@ impl Card {
     pub(super) fn of(crawl: &CrawlRun) -> Self {
         let summary = &crawl.summary;
         let standing = crawl.standing_height_mm;
-        let tops = summary.top_mm.to_array();
-        let parts = ["head", "trunk", "arms", "legs", "feet"];
-        let highest = parts
-            .into_iter()
-            .zip(tops)
-            .max_by(|a, b| a.1.total_cmp(&b.1))
-            .unwrap_or(("body", 0.0));
+        let (highest_part, highest_mm) = summary.top_mm.highest_part();
         let metres = Some(summary.path_mm / 1e3).filter(|metres| *metres > 0.0);
         let straight = summary.yaw_deg.abs() < STRAIGHT_DEG;
         let (joints, other_joints_heat_share) = joints(&summary.joints, summary.heat_s);
@@ -125,9 +119,9 @@ impl Card {
             standing_heights_per_s: standing.map(|height| summary.mm_per_s / height),
             stride_efficiency: summary.stride_efficiency,
             pull_efficiency: summary.pull_efficiency,
-            lowest_passage_mm: highest.1,
-            highest_part: highest.0,
-            passage_over_standing: standing.map(|height| highest.1 / height),
+            lowest_passage_mm: highest_mm,
+            highest_part: highest_part.name(),
+            passage_over_standing: standing.map(|height| highest_mm / height),
             plate_contacts: summary.plate_contacts,
             cost_of_transport_mechanical: summary.cost_of_transport,
             cost_of_transport_electrical_estimated: summary.electrical_cost_of_transport,
