@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 use super::CycleProblem;
 use super::form::{CycleForm, CycleFormError};
 use super::price::{Aim, CyclePrice, CyclePricer, PricerError};
-use super::setting::{Setting, SettingKind};
+use super::setting::{Role, Setting, SettingKind};
 use super::settings::{HOLDS, SettingError};
-use super::trial::{Role, Trial, try_out};
+use super::trial::{Trial, try_out};
 use crate::optimize::search::{Search, SearchEnd};
 
 /// Why nothing can be said.

@@ -18,8 +18,8 @@ use prone_sim::crawl::CrawlError;
 use prone_sim::regime::Servo;
 use prone_sim::self_collision::{SelfCollision, SelfCollisionError};
 
-use super::setting::Setting;
-use super::trial::{Role, Trial, try_out};
+use super::setting::{Role, Setting};
+use super::trial::{Trial, try_out};
 
 /// Violation of a setting that was not simulated, and of a cycle that cannot be crawled: more than
 /// what is usually broken in one that was.

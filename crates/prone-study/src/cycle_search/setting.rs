@@ -9,8 +9,6 @@ use prone::scene::{Scene, SideFriction};
 use prone_sim::{LoadedRobot, Regime, World, WorldError};
 use serde::{Deserialize, Serialize};
 
-use super::trial::Role;
-
 /// What a setting changes. Records carry it as the words that it is printed with.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
@@ -43,6 +41,30 @@ pub enum SettingKind {
     /// Another duration of the pull, s.
     PullOf(f64),
 }
+
+/// What a setting is for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Role {
+    /// Its value counts.
+    Value,
+    /// It has to advance by at least that share of the first setting's advance.
+    Keep(f64),
+    /// It has to turn to the left by at least that angle a cycle, rad.
+    Turn(f64),
+    /// Nothing is asked of it; what it does is reported.
+    Beside,
+    /// It may not turn by more than an angle a cycle, rad, and has to advance by at least a share of
+    /// the first setting's advance.
+    Straight {
+        /// The angle, rad.
+        yaw: f64,
+        /// The share.
+        keep: f64,
+    },
+}
+
+/// Share of the advance that is left where it turns as hard as it can.
+const TURNING: f64 = 0.5;
 
 /// No setting is called so.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -94,6 +116,17 @@ impl TryFrom<String> for SettingKind {
         let plain = plain.into_iter().find(|kind| kind.to_string() == name);
         let kind = plain.or_else(|| with_numbers(&name));
         kind.ok_or(UnknownSetting { name })
+    }
+}
+
+impl Role {
+    /// Share of the first setting's advance that is asked for, where one is.
+    pub const fn keep(self) -> Option<f64> {
+        match self {
+            Self::Keep(share) | Self::Straight { keep: share, .. } => Some(share),
+            Self::Turn(_) => Some(TURNING),
+            Self::Value | Self::Beside => None,
+        }
     }
 }
 

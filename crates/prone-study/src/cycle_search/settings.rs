@@ -12,8 +12,7 @@ use prone_sim::regime::Servo;
 use prone_sim::{LoadedRobot, Regime, WorldError};
 
 use super::price::CycleRules;
-use super::setting::{Setting, SettingKind, SettingSpec};
-use super::trial::Role;
+use super::setting::{Role, Setting, SettingKind, SettingSpec};
 
 /// Friction of the locomotion regime and the span over which a cycle has to hold.
 const SLIPPERY: f64 = 0.4;

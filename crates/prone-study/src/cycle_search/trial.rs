@@ -4,39 +4,9 @@ use prone::crawl::Straight;
 use prone::gait::cycle::Cycle;
 use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, Detail, End};
 
-use super::setting::{Setting, SettingKind};
-
-/// What a setting is for.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Role {
-    /// Its value counts.
-    Value,
-    /// It has to advance by at least that share of the first setting's advance.
-    Keep(f64),
-    /// It has to turn to the left by at least that angle a cycle, rad.
-    Turn(f64),
-    /// Nothing is asked of it; what it does is reported.
-    Beside,
-    /// It may not turn by more than an angle a cycle, rad, and has to advance by at least a share of
-    /// the first setting's advance.
-    Straight {
-        /// The angle, rad.
-        yaw: f64,
-        /// The share.
-        keep: f64,
-    },
-}
+use super::setting::{Role, Setting, SettingKind};
 
 impl Role {
-    /// Share of the first setting's advance that is asked for, where one is.
-    pub const fn keep(self) -> Option<f64> {
-        match self {
-            Self::Keep(share) | Self::Straight { keep: share, .. } => Some(share),
-            Self::Turn(_) => Some(TURNING),
-            Self::Value | Self::Beside => None,
-        }
-    }
-
     /// By how much a trial turns too much or too little, in shares of the limit.
     pub fn misdirected(self, trial: &Trial) -> f64 {
         match self {
@@ -46,9 +16,6 @@ impl Role {
         }
     }
 }
-
-/// Share of the advance that is left where it turns as hard as it can.
-const TURNING: f64 = 0.5;
 
 /// What a cycle came to in one setting; the last cycle of it.
 #[derive(Debug, Clone, PartialEq)]
