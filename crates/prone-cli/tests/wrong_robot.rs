@@ -38,6 +38,20 @@ fn a_joint_that_the_model_lacks_is_pointed_at() {
     insta::assert_snapshot!(message);
 }
 
+/// As a `robot.toml` of before those sections is.
+#[test]
+fn a_robot_without_control_is_told_what_it_lacks() {
+    let at = NAO.toml.find("[control]").unwrap();
+    let message = check((&NAO.toml[at..], ""), SAME);
+    insta::assert_snapshot!(message);
+}
+
+#[test]
+fn a_length_in_the_place_of_a_share_is_pointed_at() {
+    let message = check(("lateral_rad_m = 3.5", "lateral_rad_m = 3500.0"), SAME);
+    insta::assert_snapshot!(message);
+}
+
 #[test]
 fn a_body_in_no_contact_group_is_named() {
     let message = check(("\"LThigh\", ", ""), SAME);

@@ -13,8 +13,14 @@ use toml::Spanned;
 use crate::error::{FileError, Source};
 use crate::exactly::{Exactly, exactly};
 
+/// A value with its place in the file.
+pub type Placed<T> = Spanned<T>;
+
 /// A name with its place in the file.
-pub type Name = Spanned<String>;
+pub type Name = Placed<String>;
+
+/// A number with its place in the file.
+pub type Number = Placed<f64>;
 
 /// The contents of a `robot.toml`, in the units that its keys state.
 #[derive(Debug, Clone, Deserialize)]
@@ -42,6 +48,12 @@ pub struct RobotFile {
     pub study: StudyTable,
     /// The inertial measurement unit.
     pub imu: Option<ImuTable>,
+    /// How the robot is driven and steered.
+    pub control: ControlTable,
+    /// Within what searches look for cycles.
+    pub search: SearchTable,
+    /// What pictures have to know of the robot.
+    pub pictures: PicturesTable,
 }
 
 /// `[chain]`
@@ -187,13 +199,72 @@ pub struct ImuTable {
     pub gyroscope_bias_rad_s: f64,
 }
 
+/// `[control]`
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ControlTable {
+    /// Time between two commands, ms.
+    pub command_step_ms: Number,
+    /// Speed that a servo commands per position error, 1/s.
+    pub servo_rate_per_s: Number,
+    /// Largest speed that a servo commands, rad/s.
+    pub servo_speed_rad_s: Number,
+    /// Velocity gain of every joint's servo where servos are taken to be stiff, N·m·s/rad.
+    pub stiff_servo_gain_nms: Number,
+    /// Slope above which a cycle for going uphill is taken, degrees.
+    pub uphill_deg: Number,
+    /// How the robot is kept on its line.
+    pub steering: SteeringTable,
+}
+
+/// `[control.steering]`
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SteeringTable {
+    /// Turn commanded per heading error.
+    pub yaw: Number,
+    /// Heading error per lateral offset, rad/m.
+    pub lateral_rad_m: Number,
+    /// Heading error per sum of lateral offsets, rad/m.
+    pub lateral_sum_rad_m: Number,
+}
+
+/// `[search]`
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SearchTable {
+    /// Least advance of a cycle, mm.
+    pub least_advance_mm: Number,
+    /// Least and greatest angle of the upper arm in a pull, rad.
+    #[serde(deserialize_with = "exactly")]
+    pub upper_arm_rad: [Number; 2],
+}
+
+/// `[pictures]`
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PicturesTable {
+    /// How long the robot lies, stretched out, mm.
+    pub lying_length_mm: Number,
+}
+
 impl RobotFile {
     /// Reads a `robot.toml`; `file` is the name that errors carry.
     ///
     /// # Errors
-    /// [`FileError`] with line and column.
+    /// [`FileError`] with line and column. Of a section or key that is missing it says where they
+    /// are described: an older robot lacks those that came since.
     pub fn parse(file: &str, text: &str) -> Result<Self, FileError> {
-        Source { file, text }.parse()
+        Source { file, text }.parse().map_err(|error| {
+            if !error.message.starts_with("missing field") {
+                return error;
+            }
+            let message = format!(
+                "{}; docs/robot.md describes every section and key",
+                error.message
+            );
+            FileError { message, ..error }
+        })
     }
 
     /// An error at a name of this file; `file` and `text` as given to [`RobotFile::parse`].

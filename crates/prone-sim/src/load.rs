@@ -6,6 +6,7 @@
 //! and the robot's own kinematics included, so that a robot that loads can crawl.
 
 mod bounds;
+mod control;
 mod files;
 mod foreign;
 mod imu;

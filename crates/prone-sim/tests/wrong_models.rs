@@ -386,6 +386,91 @@ const TABLES: &[Refusal] = &[
         "accelerometer_bias_m_s2 = nan",
         "nao/robot.toml:350:8: accelerometer_bias_m_s2 must be within 0..100, not NaN",
     ),
+    (
+        "command_step_ms = 10.0",
+        "command_step_ms = 0.0",
+        "nao/robot.toml:361:19: command_step_ms must be positive and finite, not 0",
+    ),
+    (
+        "command_step_ms = 10.0",
+        "command_step_ms = 10000.0",
+        "nao/robot.toml:361:19: command_step_ms must be at most 1000, not 10000",
+    ),
+    (
+        "servo_rate_per_s = 20.0",
+        "servo_rate_per_s = nan",
+        "nao/robot.toml:362:20: servo_rate_per_s must be positive and finite, not NaN",
+    ),
+    (
+        "servo_speed_rad_s = 3.0",
+        "servo_speed_rad_s = -3.0",
+        "nao/robot.toml:363:21: servo_speed_rad_s must be positive and finite, not -3",
+    ),
+    (
+        "stiff_servo_gain_nms = 20.0",
+        "stiff_servo_gain_nms = 2e9",
+        "nao/robot.toml:364:24: stiff_servo_gain_nms must be at most 10000, not 2000000000",
+    ),
+    (
+        "uphill_deg = 1.5",
+        "uphill_deg = 150.0",
+        "nao/robot.toml:365:14: uphill_deg must be at most 90, not 150",
+    ),
+    (
+        "yaw = 0.9",
+        "yaw = -0.9",
+        "nao/robot.toml:370:7: yaw must be within 0..100, not -0.9",
+    ),
+    (
+        "lateral_rad_m = 3.5",
+        "lateral_rad_m = 200.0",
+        "nao/robot.toml:371:17: lateral_rad_m must be within 0..100, not 200",
+    ),
+    (
+        "lateral_sum_rad_m = 0.35",
+        "lateral_sum_rad_m = inf",
+        "nao/robot.toml:372:21: lateral_sum_rad_m must be within 0..100, not inf",
+    ),
+    (
+        "least_advance_mm = 120.0",
+        "least_advance_mm = 0.0",
+        "nao/robot.toml:377:20: least_advance_mm must be positive and finite, not 0",
+    ),
+    (
+        "upper_arm_rad = [-1.75, -0.35]",
+        "upper_arm_rad = [-0.35, -1.75]",
+        "nao/robot.toml:378:18: a range needs -2π <= lower < upper <= 2π, not -0.35..-1.75",
+    ),
+    (
+        "upper_arm_rad = [-1.75, -0.35]",
+        "upper_arm_rad = [-100.0, -20.0]",
+        "nao/robot.toml:378:18: a range needs -2π <= lower < upper <= 2π, not -100..-20",
+    ),
+    (
+        "upper_arm_rad = [-1.75, -0.35]",
+        "upper_arm_rad = [-1.75]",
+        "nao/robot.toml:378:17: invalid length 1, expected an array of exactly 2 values",
+    ),
+    (
+        "lying_length_mm = 600.0",
+        "lying_length_mm = 600000.0",
+        "nao/robot.toml:381:19: lying_length_mm must be at most 10000, not 600000",
+    ),
+    (
+        "[control]\ncommand_step_ms = 10.0\n",
+        "[control]\n",
+        "nao/robot.toml:360:1: missing field `command_step_ms`; docs/robot.md describes every section and key",
+    ),
+    (
+        "[control.steering]\nyaw = 0.9\nlateral_rad_m = 3.5\nlateral_sum_rad_m = 0.35\n",
+        "",
+        "nao/robot.toml:360:1: missing field `steering`; docs/robot.md describes every section and key",
+    ),
+    (
+        "[search]\nleast_advance_mm = 120.0\nupper_arm_rad = [-1.75, -0.35]\n",
+        "",
+        "nao/robot.toml:1:1: missing field `search`; docs/robot.md describes every section and key",
+    ),
 ];
 
 #[test]

@@ -4,6 +4,7 @@
 //! `robot.toml`. The value is immutable once loaded; algorithms are functions over `&Robot`.
 
 pub mod bounds;
+mod control;
 mod imu;
 mod kinematics;
 mod level;
@@ -15,6 +16,7 @@ pub(crate) mod testing;
 mod tops;
 mod tree;
 
+pub use control::{Control, SearchSetup, ServoLaw, SteeringGains};
 pub use imu::{Imu, SensorNoise};
 pub use kinematics::BodyPoses;
 pub use limbs::{ChainPart, ChainSide, LimbError, check_limbs};
@@ -59,6 +61,12 @@ pub struct Robot {
     pub study: StudySetup,
     /// Its inertial measurement unit, where it has one.
     pub imu: Option<Imu>,
+    /// How it is driven and steered.
+    pub control: Control,
+    /// Within what searches look for its cycles.
+    pub search: SearchSetup,
+    /// How long it lies, stretched out, m: what pictures are framed by.
+    pub lying_length: f64,
 }
 
 /// One rigid body.

@@ -3,7 +3,7 @@
 use prone::frames::Transform;
 use prone::robot::{BodyId, Imu, SensorNoise, bounds};
 use prone_files::FileError;
-use prone_files::robot_file::{ImuTable, Name};
+use prone_files::robot_file::ImuTable;
 
 use super::lookup::Lookup;
 use super::model::Parts;
@@ -39,7 +39,7 @@ pub(super) fn read(lookup: &Lookup<'_>, table: &ImuTable, parts: &Parts) -> Resu
         );
         return Err(lookup.error(name, message));
     };
-    let bounded = |what, value, largest| within(lookup, name, what, value, largest);
+    let bounded = |what, value, largest| lookup.within(name, what, value, largest);
     Ok(Imu {
         site: name.get_ref().clone(),
         // The root body's own frame is the root frame.
@@ -69,19 +69,4 @@ pub(super) fn read(lookup: &Lookup<'_>, table: &ImuTable, parts: &Parts) -> Resu
             )?,
         },
     })
-}
-
-/// A number from 0 to `largest`; NaN is in no range.
-fn within(
-    lookup: &Lookup<'_>,
-    place: &Name,
-    what: &str,
-    value: f64,
-    largest: f64,
-) -> Result<f64, FileError> {
-    if (0.0..=largest).contains(&value) {
-        return Ok(value);
-    }
-    let message = format!("{what} must be within 0..{largest}, not {value}");
-    Err(lookup.error(place, message))
 }

@@ -6,9 +6,9 @@ use std::fmt::Display;
 use strsim::levenshtein;
 
 use prone::frames::{Link, Point};
-use prone::robot::{BodyId, JointId, bounds};
+use prone::robot::{BodyId, JointId, Range, bounds};
 use prone_files::FileError;
-use prone_files::robot_file::{Name, RobotFile};
+use prone_files::robot_file::{Name, Placed, RobotFile};
 
 use super::model::Parts;
 
@@ -20,7 +20,7 @@ pub(super) struct Lookup<'a> {
 }
 
 impl Lookup<'_> {
-    pub(super) fn error(&self, place: &Name, message: impl Display) -> FileError {
+    pub(super) fn error<T>(&self, place: &Placed<T>, message: impl Display) -> FileError {
         RobotFile::error_at(self.file, self.text, place, &message.to_string())
     }
 
@@ -76,9 +76,9 @@ impl Lookup<'_> {
     }
 
     /// A positive number up to `largest`.
-    pub(super) fn positive(
+    pub(super) fn positive<T>(
         &self,
-        place: &Name,
+        place: &Placed<T>,
         what: &str,
         value: f64,
         largest: f64,
@@ -94,8 +94,38 @@ impl Lookup<'_> {
         Err(self.error(place, message))
     }
 
+    /// A number from 0 to `largest`; NaN is in no range.
+    pub(super) fn within<T>(
+        &self,
+        place: &Placed<T>,
+        what: &str,
+        value: f64,
+        largest: f64,
+    ) -> Result<f64, FileError> {
+        if (0.0..=largest).contains(&value) {
+            return Ok(value);
+        }
+        let message = format!("{what} must be within 0..{largest}, not {value}");
+        Err(self.error(place, message))
+    }
+
+    /// A range of angles, rad.
+    pub(super) fn range<T>(&self, place: &Placed<T>, range: Range) -> Result<Range, FileError> {
+        let Range { lower, upper } = range;
+        if lower < upper && lower >= -bounds::ANGLE && upper <= bounds::ANGLE {
+            return Ok(range);
+        }
+        let message = format!("a range needs -2π <= lower < upper <= 2π, not {lower}..{upper}");
+        Err(self.error(place, message))
+    }
+
     /// A length in mm, as metres.
-    pub(super) fn length(&self, place: &Name, what: &str, mm: f64) -> Result<f64, FileError> {
+    pub(super) fn length<T>(
+        &self,
+        place: &Placed<T>,
+        what: &str,
+        mm: f64,
+    ) -> Result<f64, FileError> {
         Ok(self.positive(place, what, mm, bounds::LENGTH * 1e3)? * 1e-3)
     }
 

@@ -19,7 +19,7 @@ use prone_files::robot_file::{
 
 use super::lookup::Lookup;
 use super::model::Parts;
-use super::{imu, limbs};
+use super::{control, imu, limbs};
 
 impl Lookup<'_> {
     pub(super) fn assemble(&self, table: RobotFile, mut parts: Parts) -> Result<Robot, FileError> {
@@ -47,6 +47,9 @@ impl Lookup<'_> {
             postures: BTreeMap::new(),
             study,
             imu,
+            control: control::read(self, &table.control)?,
+            search: control::search(self, &table.search)?,
+            lying_length: control::lying_length(self, &table.pictures)?,
         };
         robot.postures = self.postures(&table.postures, &robot)?;
         limbs::check(&robot, &table.chain)
@@ -248,12 +251,7 @@ impl Lookup<'_> {
         let mut stops = Vec::new();
         for (name, &[lower, upper]) in &table.stops_rad {
             let id = self.joint(name, parts)?;
-            if !(lower < upper && lower >= -bounds::ANGLE && upper <= bounds::ANGLE) {
-                let message =
-                    format!("a range needs -2π <= lower < upper <= 2π, not {lower}..{upper}");
-                return Err(self.error(name, message));
-            }
-            stops.push((id, Range { lower, upper }));
+            stops.push((id, self.range(name, Range { lower, upper })?));
         }
         Ok(StudySetup {
             start_posture: start.get_ref().clone(),

@@ -6,8 +6,9 @@ use std::collections::BTreeMap;
 use glam::{DQuat, DVec3};
 
 use super::{
-    Body, BodyId, ChainLayout, ContactGroup, FixedArm, Joint, JointAngles, JointId, PublishedChain,
-    Range, Robot, Shape, SideLayout, Solid, StudySetup,
+    Body, BodyId, ChainLayout, ContactGroup, Control, FixedArm, Joint, JointAngles, JointId,
+    PublishedChain, Range, Robot, SearchSetup, ServoLaw, Shape, SideLayout, Solid, SteeringGains,
+    StudySetup,
 };
 use crate::chain::ClosedChain;
 use crate::frames::{Point, Transform};
@@ -159,6 +160,28 @@ pub(crate) fn two_armed() -> Robot {
             stops: Vec::new(),
         },
         imu: None,
+        control: Control {
+            command_step: 0.02,
+            servo: ServoLaw {
+                rate: 15.0,
+                speed: 2.0,
+            },
+            stiff_servo_gain: 12.0,
+            steering: SteeringGains {
+                yaw: 0.8,
+                lateral: 3.0,
+                lateral_sum: 0.3,
+            },
+            uphill: 0.03,
+        },
+        search: SearchSetup {
+            least_advance: 0.1,
+            upper_arm: Range {
+                lower: -1.8,
+                upper: -0.3,
+            },
+        },
+        lying_length: 0.7,
     };
     let zero = JointAngles::zero(&robot);
     robot.postures.insert("zero".to_owned(), zero);
