@@ -137,9 +137,7 @@ fn search(
     let Some((_, best)) = search.best() else {
         return Ok(None);
     };
-    let Some((mut cycle, price)) = hunt.quote(&best.point) else {
-        return Ok(None);
-    };
+    let (mut cycle, price) = hunt.quote(&best.point).map_err(Failure::work)?;
     cycle.pull.name = format!(
         "under-{}-seed-{seed}",
         args.ceiling_mm.to_string().replace('.', "-")

@@ -253,3 +253,48 @@ fn whole_cycles_are_optimised_too() {
         assert!(page.contains(said), "{said}");
     }
 }
+
+/// A cycle that has to turn to the left is tried in the settings in which it is steered, and so is
+/// what is confirmed.
+#[test]
+fn a_steerable_cycle_is_searched_and_confirmed_by_how_it_turns() {
+    let home = tempfile::tempdir().unwrap();
+    let out = home.path().join("steerable").display().to_string();
+    let done = prone(&[
+        "optimize",
+        "--objective",
+        "advance",
+        "--source",
+        "cycle",
+        "--steerable",
+        "--from",
+        "low-175",
+        "--seed",
+        "1",
+        "--budget",
+        "16",
+        "--out",
+        &out,
+    ]);
+    succeeded(&done);
+    let read = |name: &str| -> Value {
+        let text = fs::read(home.path().join("steerable").join(name)).unwrap();
+        serde_json::from_slice(&text).unwrap()
+    };
+    assert_eq!(read("run.json")["steerable"], true);
+    let result = read("result.json");
+    let settings = result["found"][0]["confirmed"]["settings"]
+        .as_array()
+        .unwrap();
+    let yaw = |name: &str| {
+        let row = settings.iter().find(|row| row["setting"] == name).unwrap();
+        row["yaw_deg"].as_f64().unwrap()
+    };
+    assert!(yaw("turning") > 3.0, "{}°", yaw("turning"));
+    for name in [
+        "friction 0.5 and 0.9, joints off",
+        "friction 0.9 and 0.5, joints off",
+    ] {
+        assert!(yaw(name).abs() < yaw("turning"), "{name}: {}°", yaw(name));
+    }
+}

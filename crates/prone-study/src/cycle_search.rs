@@ -1,13 +1,14 @@
 //! Searching whole cycles in the locomotion regime.
 //!
-//! [`form`] makes cycles of numbers, [`price`] prices them by what [`trial`]s of them come to, an optimiser of
-//! `prone-optim` searches over both.
+//! [`form`] makes cycles of numbers, [`price`] prices them by what [`trial`]s of them come to and which
+//! [`rules`] these break, an optimiser of `prone-optim` searches over both.
 
 pub mod form;
 pub mod frontier;
 pub mod passage;
 pub mod price;
 pub mod record;
+pub mod rules;
 pub mod setting;
 pub mod settings;
 pub mod trial;
@@ -16,6 +17,8 @@ use prone_optim::{Interval, Problem, Score};
 
 use form::CycleForm;
 use price::CyclePricer;
+
+use crate::optimize::problem::counted;
 
 /// What an optimiser sees of a cycle.
 pub struct CycleProblem<'a> {
@@ -35,11 +38,6 @@ impl Problem for CycleProblem<'_> {
             return Score::new(f64::MAX, 0.0);
         };
         let price = self.pricer.price(&cycle);
-        let value = if price.value.is_nan() {
-            0.0
-        } else {
-            price.value
-        };
-        Score::new(price.violation, value)
+        Score::new(price.violation, counted(price.value, price.violation))
     }
 }

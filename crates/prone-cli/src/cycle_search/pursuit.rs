@@ -40,7 +40,7 @@ pub(super) fn pursue(quest: &mut Quest<'_>) -> Result<(), Failure> {
     let mut searches = begin(quest, &checkpoint)?;
     let started = Instant::now();
     pool.install(|| search(quest, &mut searches, &mut checkpoint))?;
-    let (frontier, gaits) = pool.install(|| found(quest, &searches));
+    let (frontier, gaits) = pool.install(|| found(quest, &searches))?;
     if interrupt::requested() {
         return Err(suspended(&checkpoint));
     }
@@ -148,7 +148,7 @@ fn suspended(checkpoint: &Checkpoint) -> Failure {
 }
 
 /// What each run found, confirmed, and the cycles under their names.
-fn found(quest: &Quest<'_>, searches: &[Search]) -> (Frontier, Vec<Cycle>) {
+fn found(quest: &Quest<'_>, searches: &[Search]) -> Result<(Frontier, Vec<Cycle>), Failure> {
     let mut frontier = Frontier {
         objective: quest.objective.name(),
         margin_mm: quest.margin_mm,
@@ -158,17 +158,21 @@ fn found(quest: &Quest<'_>, searches: &[Search]) -> (Frontier, Vec<Cycle>) {
     let mut gaits = Vec::new();
     for (job, search) in quest.jobs.iter().zip(searches) {
         for run in search.runs() {
-            let quoted = run.best().and_then(|best| job.hunt.quote(&best.point));
-            let Some((mut cycle, price)) = quoted else {
+            let Some(best) = run.best() else {
                 continue;
             };
+            let (mut cycle, price) = job.hunt.quote(&best.point).map_err(Failure::work)?;
             let stem = match (&quest.name, job.ceiling_mm) {
                 (Some(name), _) => name.clone(),
                 (None, Some(mm)) => format!("under-{}", mm.to_string().replace('.', "-")),
                 (None, None) => "open".to_owned(),
             };
             cycle.pull.name = format!("{stem}-seed-{}", run.seed);
-            if cycle.steering.is_some() && !frontier::steers(&quest.steering, &cycle) {
+            let steering = match cycle.steering {
+                None => Ok(()),
+                Some(_) => frontier::check_steering(&quest.steering, &cycle),
+            };
+            if steering.is_err() {
                 cycle.steering = None;
             }
             let under = job
@@ -183,14 +187,18 @@ fn found(quest: &Quest<'_>, searches: &[Search]) -> (Frontier, Vec<Cycle>) {
             );
             let ceiling = job.ceiling_mm.map_or(f64::INFINITY, |mm| mm * 1e-3);
             let confirmed = frontier::confirm(&quest.confirmation, &cycle, ceiling);
-            frontier.found.push(Found::new(
+            let found = Found::new(
                 job.ceiling_mm,
                 run.seed,
                 run.evaluations(),
                 &cycle,
                 &price,
                 confirmed,
-            ));
+            );
+            frontier.found.push(Found {
+                unsteered: steering.err().map(|reason| reason.to_string()),
+                ..found
+            });
             gaits.push(cycle);
         }
     }
@@ -203,7 +211,7 @@ fn found(quest: &Quest<'_>, searches: &[Search]) -> (Frontier, Vec<Cycle>) {
             });
         }
     }
-    (frontier, gaits)
+    Ok((frontier, gaits))
 }
 
 fn print(frontier: &Frontier, out: &mut impl std::io::Write) -> std::io::Result<()> {

@@ -8,7 +8,7 @@
 use std::collections::BTreeMap;
 
 use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale};
-use prone::gait::{Curve, CurveError, PhaseDuration};
+use prone::gait::{Curve, CurveError, PhaseDuration, PhaseDurationError};
 use prone::robot::{Mirror, Range, Robot};
 use prone_optim::{Interval, IntervalError};
 
@@ -79,6 +79,25 @@ pub enum CycleFormError {
     /// It makes no curve.
     #[error(transparent)]
     Curve(#[from] CurveError),
+}
+
+/// Why a point has no cycle.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum PointError {
+    /// It is a point of another box.
+    #[error("a point of {numbers} numbers is given, this box has {variables}")]
+    Numbers {
+        /// How many numbers it has.
+        numbers: usize,
+        /// How many the box has.
+        variables: usize,
+    },
+    /// It makes no curve.
+    #[error(transparent)]
+    Curve(#[from] CurveError),
+    /// The pull would be too short or too long.
+    #[error("the pull: {0}")]
+    Duration(#[from] PhaseDurationError),
 }
 
 impl CycleForm {
@@ -168,8 +187,15 @@ impl CycleForm {
     /// The cycle of a point.
     ///
     /// # Errors
-    /// [`CurveError`], which points within the bounds do not produce.
-    pub fn cycle(&self, point: &[f64]) -> Result<Cycle, CurveError> {
+    /// [`PointError`]; points within the bounds make curves, but the bounds about a pull that is next
+    /// to as short or as long as it can be reach further than that.
+    pub fn cycle(&self, point: &[f64]) -> Result<Cycle, PointError> {
+        if point.len() != self.variables.len() {
+            return Err(PointError::Numbers {
+                numbers: point.len(),
+                variables: self.variables.len(),
+            });
+        }
         let mut cycle = self.middle.clone();
         let mut controls: Vec<(PullCurve, Vec<f64>)> = Vec::new();
         for (variable, &value) in self.variables.iter().zip(point) {
@@ -183,12 +209,7 @@ impl CycleForm {
                 Variable::Joint(index, joint) => {
                     cycle.recovery[*index].joints.insert(joint.clone(), value);
                 }
-                Variable::Time(0) => {
-                    // Within the bounds of a phase, as the middle is and the factor is small.
-                    if let Ok(duration) = PhaseDuration::new(value) {
-                        cycle.pull_duration = duration;
-                    }
-                }
+                Variable::Time(0) => cycle.pull_duration = PhaseDuration::new(value)?,
                 Variable::Time(index) => match cycle.recovery.get_mut(index - 1) {
                     Some(waypoint) => waypoint.approach.seconds = value,
                     None => cycle.approach.seconds = value,
@@ -303,6 +324,41 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// No other cycle is priced in place of one whose pull no phase can have.
+    #[test]
+    fn limit_a_time_that_no_pull_has_makes_no_cycle() {
+        let loaded = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
+        let form = |cycle: &Cycle| CycleForm::about(loaded.robot(), cycle).unwrap();
+        let cycle = shipped::cycle("low-175").unwrap().unwrap();
+        let long = Cycle {
+            pull_duration: PhaseDuration::new(500.0).unwrap(),
+            ..cycle.clone()
+        };
+        let form = form(&long);
+        let mut point = form.point(&form.middle);
+        let time = form
+            .variables
+            .iter()
+            .position(|it| *it == Variable::Time(0));
+        let time = time.unwrap();
+        assert!(form.bounds[time].high() > PhaseDuration::LONGEST);
+        point[time] = 650.0;
+        let seconds = 650.0;
+        let refused = form.cycle(&point).unwrap_err();
+        assert_eq!(
+            refused,
+            PointError::Duration(PhaseDurationError { seconds })
+        );
+        let message = "the pull: a phase of 650 s is outside 0.1..600 s";
+        assert_eq!(refused.to_string(), message);
+        point[time] = 600.0;
+        let found = form.cycle(&point).unwrap().pull_duration.seconds();
+        assert!((found - 600.0).abs() < f64::EPSILON, "{found} s");
+        let short = form.cycle(&point[1..]).unwrap_err();
+        let (numbers, variables) = (point.len() - 1, point.len());
+        assert_eq!(short, PointError::Numbers { numbers, variables });
     }
 
     impl CycleForm {

@@ -1,12 +1,15 @@
 //! The curve of ceiling against advance, and whether a robot gets under a given one.
 
+use std::cmp::Ordering;
+
 use prone::gait::cycle::Cycle;
 use prone::robot::Robot;
 use prone_sim::LoadedRobot;
+use prone_sim::crawl::CrawlError;
 use serde::{Deserialize, Serialize};
 
 use super::CycleProblem;
-use super::form::{CycleForm, CycleFormError};
+use super::form::{CycleForm, CycleFormError, PointError};
 use super::price::{Aim, CyclePrice, CyclePricer, PricerError};
 use super::setting::{Role, Setting, SettingKind};
 use super::settings::{HOLDS, SettingError};
@@ -26,11 +29,25 @@ pub enum FrontierError {
     #[error(transparent)]
     Pricer(#[from] PricerError),
     /// No cycle to begin with.
-    #[error("there is no cycle that {robot} can crawl to begin with")]
+    #[error(
+        "there is no cycle that {robot} can crawl to begin with{}",
+        listed(refused)
+    )]
     NoCycle {
         /// The robot's name.
         robot: String,
+        /// Names of the cycles that were tried, and why they cannot be crawled.
+        refused: Vec<(String, CrawlError)>,
     },
+}
+
+/// One line a cycle.
+fn listed(refused: &[(String, CrawlError)]) -> String {
+    let lines = refused.iter();
+    let lines: Vec<String> = lines
+        .map(|(cycle, error)| format!("\n  {cycle}: {error}"))
+        .collect();
+    lines.concat()
 }
 
 /// What is searched about one cycle.
@@ -75,10 +92,13 @@ impl<'a> Hunt<'a> {
     }
 
     /// The cycle of a point, with its price in every setting.
-    pub fn quote(&self, point: &[f64]) -> Option<(Cycle, CyclePrice)> {
-        let cycle = self.form.cycle(point).ok()?;
+    ///
+    /// # Errors
+    /// [`PointError`] where the point has no cycle.
+    pub fn quote(&self, point: &[f64]) -> Result<(Cycle, CyclePrice), PointError> {
+        let cycle = self.form.cycle(point)?;
         let price = self.pricer.quote(&cycle);
-        Some((cycle, price))
+        Ok((cycle, price))
     }
 }
 
@@ -183,22 +203,60 @@ fn refused(setting: &Setting, reason: String) -> ConfirmedSetting {
     }
 }
 
-/// Whether a cycle can be steered: its largest command turns it by more than uneven ground and joints
-/// that are off do, in the settings of [`super::settings::for_steering_confirmation`]. A cycle that
-/// was searched for something else has the steering of the one that it was searched about, which may
-/// do nothing in it, or turn it the wrong way.
-pub fn steers(settings: &[Setting], cycle: &Cycle) -> bool {
+/// Why a cycle cannot be steered.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum NotSteered {
+    /// Something else turns it more.
+    #[error(
+        "its largest turn command turns it by {:.2}° a cycle, and uneven ground and joints that are \
+         off by {:.2}°",
+        turned.to_degrees(), thrown_off.to_degrees()
+    )]
+    ThrownOff {
+        /// By the largest command, rad, positive to the left, as the command is.
+        turned: f64,
+        /// By what throws it off, rad, to whichever side.
+        thrown_off: f64,
+    },
+    /// It cannot be crawled in a setting.
+    #[error("{setting}: {source}")]
+    Crawl {
+        /// Which.
+        setting: SettingKind,
+        /// Why.
+        source: CrawlError,
+    },
+}
+
+/// Finds out whether a cycle can be steered: its largest command turns it by more than uneven ground
+/// and joints that are off do, in the settings of
+/// [`super::settings::for_steering_confirmation`]. A cycle that was searched for something else has
+/// the steering of the one that it was searched about, which may do nothing in it, or turn it the
+/// wrong way.
+///
+/// # Errors
+/// [`NotSteered`].
+pub fn check_steering(settings: &[Setting], cycle: &Cycle) -> Result<(), NotSteered> {
+    // Not a number steers nothing, and throws a robot off as far as can be.
+    let further = |one: f64, other: f64| match one.total_cmp(&other.abs()) {
+        Ordering::Less => other.abs(),
+        _ => one,
+    };
     let (mut turned, mut thrown_off) = (f64::NEG_INFINITY, 0.0_f64);
     for setting in settings {
-        let Ok(trial) = try_out(setting, cycle) else {
-            return false;
-        };
+        let trial = try_out(setting, cycle).map_err(|source| NotSteered::Crawl {
+            setting: setting.spec.kind,
+            source,
+        })?;
         match setting.spec.role {
             Role::Turn(_) => turned = turned.max(trial.yaw),
-            _ => thrown_off = thrown_off.max(trial.yaw.abs()),
+            _ => thrown_off = further(thrown_off, trial.yaw),
         }
     }
-    turned > thrown_off
+    if turned > thrown_off {
+        return Ok(());
+    }
+    Err(NotSteered::ThrownOff { turned, thrown_off })
 }
 
 /// The base of a search under a height, m: of the cycles that stay below it, the one that advances
@@ -212,42 +270,23 @@ pub fn base<'c>(
     cycles: &'c [Cycle],
     height: f64,
 ) -> Result<&'c Cycle, FrontierError> {
-    let tried: Vec<(&Cycle, Trial)> = cycles
-        .iter()
-        .filter_map(|cycle| Some((cycle, try_out(setting, cycle).ok()?)))
-        .collect();
+    let mut tried: Vec<(&Cycle, Trial)> = Vec::with_capacity(cycles.len());
+    let mut refused = Vec::new();
+    for cycle in cycles {
+        match try_out(setting, cycle) {
+            Ok(trial) => tried.push((cycle, trial)),
+            Err(error) => refused.push((cycle.pull.name.clone(), error)),
+        }
+    }
     let below = tried.iter().filter(|(_, trial)| trial.top.0 <= height);
     let farthest = below.max_by(|a, b| a.1.advance.total_cmp(&b.1.advance));
     let lowest = || tried.iter().min_by(|a, b| a.1.top.0.total_cmp(&b.1.top.0));
     let chosen = farthest.or_else(lowest).map(|(cycle, _)| *cycle);
     chosen.ok_or_else(|| FrontierError::NoCycle {
         robot: robot.robot().name.clone(),
+        refused,
     })
 }
 
 #[cfg(test)]
-mod tests {
-    use prone_files::shipped;
-    use prone_sim::RobotFiles;
-
-    use super::super::settings::for_steering_confirmation;
-    use super::*;
-
-    #[test]
-    fn a_cycle_that_ships_with_steering_can_be_steered() {
-        let robot = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
-        let settings = for_steering_confirmation(&robot).unwrap();
-        let cycle = |name: &str| shipped::cycle(name).unwrap().unwrap();
-        for cycle in shipped::cycle_names().map(cycle) {
-            if cycle.steering.is_some() {
-                assert!(steers(&settings, &cycle), "{}", cycle.pull.name);
-            }
-        }
-        // What would steer another one does not steer this.
-        let borrowed = Cycle {
-            steering: cycle("low-175").steering,
-            ..cycle("far-200")
-        };
-        assert!(!steers(&settings, &borrowed));
-    }
-}
+mod tests;

@@ -8,22 +8,19 @@
 //! no more heat. Limbs are kept apart in the plan, not in what lags behind it. What is broken adds
 //! up, mostly in shares of its limit (stops in rad, limbs in one another in centimetres), and
 //! compares before the value. The settings are taken in order, and those after one that
-//! breaks a rule are not simulated: each counts as [`UNTRIED`].
+//! breaks a rule are not simulated: each counts as [`UNTRIED`]. So does a cycle that cannot be
+//! planned or crawled, with the reason.
 
 use prone::crawl::CrawlerError;
 use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale};
 use prone::gait::{Clamp, LimitsPolicy};
 use prone::robot::{JointAngles, JointId};
 use prone_sim::crawl::CrawlError;
-use prone_sim::regime::Servo;
 use prone_sim::self_collision::{SelfCollision, SelfCollisionError};
 
-use super::setting::{Role, Setting};
+use super::rules::{CycleRules, UNTRIED, above};
+use super::setting::{Role, Setting, SettingKind};
 use super::trial::{Trial, try_out};
-
-/// Violation of a setting that was not simulated, and of a cycle that cannot be crawled: more than
-/// what is usually broken in one that was.
-pub const UNTRIED: f64 = 1.0;
 
 /// What is minimised.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -90,43 +87,14 @@ impl Merge {
         let heats = trials.iter().map(|trial| trial.heat_per_metre);
         match self {
             Self::Mean => (heats.map(f64::ln).sum::<f64>() / trials.len() as f64).exp(),
-            Self::WorstOver(others) => heats
-                .zip(others)
-                .map(|(heat, other)| heat / other)
-                .fold(f64::NAN, f64::max),
+            Self::WorstOver(others) => {
+                let shares = heats.zip(others).map(|(heat, other)| heat / other);
+                // NaN of either sign is above all numbers.
+                let worst = shares.max_by(|a, b| a.abs().total_cmp(&b.abs()));
+                worst.unwrap_or(f64::NAN)
+            }
         }
     }
-}
-
-/// What holds in every setting.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CycleRules {
-    /// Highest point of the robot, m.
-    pub ceiling: f64,
-    /// Least advance per cycle where values count, m.
-    pub advance: f64,
-    /// Largest share of the weight on trunk and legs during the pull, 0 to 1.
-    pub body_share: f64,
-    /// Largest duration of a cycle, s.
-    pub seconds: f64,
-    /// Largest torque that a shoulder's servo demands, N·m, with the robot's own servo gains: a
-    /// servo that is five times as stiff asks for five times as much of the same lag, and no gait
-    /// would be left.
-    pub demanded_shoulder: f64,
-    /// Largest heat, merged over servos.
-    pub heat: f64,
-}
-
-impl CycleRules {
-    /// None but that it advances at all.
-    pub const FREE: Self = Self {
-        ceiling: f64::INFINITY,
-        advance: 0.01,
-        body_share: 1.0,
-        seconds: f64::INFINITY,
-        demanded_shoulder: f64::INFINITY,
-        heat: f64::INFINITY,
-    };
 }
 
 /// What a search goes after.
@@ -149,6 +117,27 @@ pub struct CyclePrice {
     pub violation: f64,
     /// The settings that were simulated.
     pub trials: Vec<Trial>,
+    /// Why it could not be crawled, where it could not; what it breaks is counted all the same.
+    pub refusal: Option<Refusal>,
+}
+
+/// Why a cycle could not be crawled.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Refusal {
+    /// It cannot be planned.
+    #[error(transparent)]
+    Plan(#[from] CycleError),
+    /// Its limbs cannot be compared.
+    #[error(transparent)]
+    Limbs(#[from] SelfCollisionError),
+    /// It cannot be crawled in a setting.
+    #[error("{setting}: {source}")]
+    Crawl {
+        /// Which.
+        setting: SettingKind,
+        /// Why.
+        source: CrawlError,
+    },
 }
 
 /// Why cycles cannot be priced.
@@ -157,6 +146,20 @@ pub enum PricerError {
     /// There is nothing to simulate.
     #[error("cycles are priced in at least one setting")]
     NoSettings,
+    /// Heats are compared with those of other settings.
+    #[error("{others} heats to compare with are given, and {settings} settings have a value")]
+    Merge {
+        /// How many heats [`Merge::WorstOver`] has.
+        others: usize,
+        /// In how many settings values count.
+        settings: usize,
+    },
+    /// No joint of the robot is known to become warm.
+    #[error("no joint of {robot} has a motor in robot.toml, without which there is no heat")]
+    NoMotor {
+        /// The robot's name.
+        robot: String,
+    },
     /// The base cannot be crawled.
     #[error(transparent)]
     Cycle(#[from] CycleError),
@@ -177,10 +180,23 @@ impl<'a> CyclePricer<'a> {
     /// A pricer; no joint may be asked further past its stop than `base` asks it.
     ///
     /// # Errors
-    /// [`PricerError`] where the base cannot be crawled.
+    /// [`PricerError`] where the base cannot be crawled, or nothing can be compared.
     pub fn new(settings: &'a [Setting], aim: Aim, base: &Cycle) -> Result<Self, PricerError> {
         let first = settings.first().ok_or(PricerError::NoSettings)?;
         let world = &first.world;
+        if let Merge::WorstOver(others) = &aim.merge {
+            let valued = settings.iter().filter(|it| it.spec.role == Role::Value);
+            let (others, settings) = (others.len(), valued.count());
+            if others != settings {
+                return Err(PricerError::Merge { others, settings });
+            }
+        }
+        let warm = aim.objective == CycleObjective::Heat || aim.rules.heat < f64::INFINITY;
+        if warm && world.robot().joints.iter().all(|it| it.motor.is_none()) {
+            return Err(PricerError::NoMotor {
+                robot: world.robot().name.clone(),
+            });
+        }
         let checked = CheckedCycle::plan(world.robot(), world.stops(), base, 0.0, TimeScale::ONE)?;
         Ok(Self {
             settings,
@@ -201,10 +217,17 @@ impl<'a> CyclePricer<'a> {
     }
 
     fn tried(&self, cycle: &Cycle, thoroughness: Thoroughness) -> CyclePrice {
+        let Aim {
+            objective,
+            merge,
+            rules,
+        } = &self.aim;
+        let (violation, refusal) = self.broken_in_plan(cycle);
         let mut price = CyclePrice {
             value: f64::NAN,
-            violation: self.broken_in_plan(cycle),
+            violation,
             trials: Vec::new(),
+            refusal,
         };
         for (index, setting) in self.settings.iter().enumerate() {
             let left = (self.settings.len() - index) as f64;
@@ -214,8 +237,12 @@ impl<'a> CyclePricer<'a> {
             }
             let trial = match try_out(setting, cycle) {
                 Ok(trial) => trial,
-                Err(error) => {
-                    price.violation += UNTRIED * left + excess_speed_of_crawl(&error);
+                Err(source) => {
+                    price.violation += UNTRIED * left + excess_speed_of_crawl(&source);
+                    price.refusal.get_or_insert(Refusal::Crawl {
+                        setting: setting.spec.kind,
+                        source,
+                    });
                     break;
                 }
             };
@@ -223,7 +250,8 @@ impl<'a> CyclePricer<'a> {
                 .trials
                 .first()
                 .map_or(trial.advance, |first: &Trial| first.advance);
-            price.violation += self.broken(setting, &trial, first);
+            let servo = setting.world.regime().servo;
+            price.violation += rules.broken_by_trial(setting.spec.role, servo, &trial, first);
             price.trials.push(trial);
         }
         let tried = self.settings.iter().zip(&price.trials);
@@ -231,27 +259,22 @@ impl<'a> CyclePricer<'a> {
             .filter(|(setting, _)| setting.spec.role == Role::Value)
             .map(|(_, trial)| trial)
             .collect();
-        let Aim {
-            objective,
-            merge,
-            rules,
-        } = &self.aim;
         price.value = objective.value(&valued, merge);
-        if rules.heat < f64::INFINITY {
-            price.violation += (merge.heat(&valued) / rules.heat - 1.0).max(0.0);
+        if !valued.is_empty() {
+            price.violation += rules.broken_by_heat(merge.heat(&valued));
         }
         price
     }
 
-    /// What is broken before anything moves.
-    fn broken_in_plan(&self, cycle: &Cycle) -> f64 {
+    /// What is broken before anything moves, and why it will not move, where it will not.
+    fn broken_in_plan(&self, cycle: &Cycle) -> (f64, Option<Refusal>) {
         let Some(first) = self.settings.first() else {
-            return UNTRIED;
+            return (UNTRIED, None);
         };
         let world = &first.world;
         let robot = world.robot();
-        let over = |value: f64, limit: f64| (value / limit - 1.0).max(0.0);
-        let mut broken = over(cycle.duration(TimeScale::ONE), self.aim.rules.seconds);
+        let duration = cycle.duration(TimeScale::ONE);
+        let mut broken = self.aim.rules.broken_by_duration(duration);
         let clamping = Cycle {
             pull: prone::gait::Gait {
                 limits: LimitsPolicy::Clamp,
@@ -265,52 +288,34 @@ impl<'a> CyclePricer<'a> {
             TimeScale::ONE,
             |a, b| if b.value() < a.value() { b } else { a },
         );
-        match CheckedCycle::plan(robot, world.stops(), &clamping, 0.0, fastest) {
-            Ok(checked) => {
-                broken += self.clamped_further(&checked);
-                broken += collides(&self.collision, &checked);
+        let plan = CheckedCycle::plan(robot, world.stops(), &clamping, 0.0, fastest);
+        let plan = plan.and_then(|checked| Ok((planned_postures(&checked)?, checked)));
+        let (postures, checked) = match plan {
+            Ok(plan) => plan,
+            Err(error) => {
+                broken += UNTRIED + excess_speed(&error);
+                return (broken, Some(error.into()));
             }
-            Err(error) => broken += UNTRIED + excess_speed(&error),
-        }
-        broken
-    }
-
-    /// By how much more than in the base joints are stopped at their limits, rad.
-    fn clamped_further(&self, checked: &CheckedCycle) -> f64 {
-        let allowed = |joint: JointId| {
-            let same = self
-                .allowed_clamps
-                .iter()
-                .find(|clamp| clamp.joint == joint);
-            same.map_or(0.0, |clamp| clamp.largest.abs())
         };
-        let further = checked.clamps().iter();
-        further
-            .map(|clamp| (clamp.largest.abs() - allowed(clamp.joint)).max(0.0))
-            .sum()
+        broken += clamped_further(&self.allowed_clamps, checked.clamps());
+        // Its engine data is scratch.
+        match self.collision.clone().scan(&postures, f64::NEG_INFINITY) {
+            Ok(scan) => (broken + depth(scan.closest.closest.distance_m), None),
+            Err(error) => (broken + UNTRIED, Some(error.into())),
+        }
     }
+}
 
-    fn broken(&self, setting: &Setting, trial: &Trial, first_advance: f64) -> f64 {
-        let rules = &self.aim.rules;
-        let over = |value: f64, limit: f64| (value / limit - 1.0).max(0.0);
-        if setting.spec.role == Role::Beside {
-            return 0.0;
-        }
-        let least = match setting.spec.role.keep() {
-            None => rules.advance,
-            Some(share) => share * first_advance.max(rules.advance),
-        };
-        let mut broken = (1.0 - trial.advance / least).max(0.0);
-        broken += setting.spec.role.misdirected(trial);
-        broken += over(trial.top.0, rules.ceiling);
-        if rules.body_share < 1.0 && setting.spec.role == Role::Value {
-            broken += (trial.body_share - rules.body_share).max(0.0);
-        }
-        if setting.world.regime().servo == Servo::Robot {
-            broken += over(trial.demanded_shoulder, rules.demanded_shoulder);
-        }
-        broken
-    }
+/// By how much more than is allowed joints are stopped at their limits, rad.
+fn clamped_further(allowed: &[Clamp], clamps: &[Clamp]) -> f64 {
+    let most = |joint: JointId| {
+        let same = allowed.iter().find(|clamp| clamp.joint == joint);
+        same.map_or(0.0, |clamp| clamp.largest.abs())
+    };
+    clamps
+        .iter()
+        .map(|clamp| (clamp.largest.abs() - most(clamp.joint)).max(0.0))
+        .sum()
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -323,7 +328,7 @@ enum Thoroughness {
 /// slope.
 fn excess_speed(error: &CycleError) -> f64 {
     match error {
-        CycleError::Speed { speed, limit, .. } => speed / limit - 1.0,
+        CycleError::Speed { speed, limit, .. } => above(*speed, *limit),
         _ => UNTRIED,
     }
 }
@@ -336,90 +341,31 @@ fn excess_speed_of_crawl(error: &CrawlError) -> f64 {
     }
 }
 
-/// How deep limbs are in one another in the planned cycle, over 10 mm; 0 where they are not.
-fn collides(collision: &SelfCollision, checked: &CheckedCycle) -> f64 {
+/// How deep limbs are in one another, over 10 mm, where they are `distance` apart, m; 0 where they
+/// are not in one another, and as much as an untried setting where they are nowhere.
+fn depth(distance: f64) -> f64 {
+    if distance.is_finite() {
+        (-distance).max(0.0) / 0.01
+    } else {
+        UNTRIED
+    }
+}
+
+/// Postures of a planned cycle, pull and recovery.
+fn planned_postures(checked: &CheckedCycle) -> Result<Vec<JointAngles>, CycleError> {
     let seconds = checked.pull().duration().seconds();
     let share = |k: usize, of: usize| k as f64 / of as f64;
     let mut postures: Vec<JointAngles> = (0..=PLAN_SAMPLES)
         .map(|k| checked.pull_at(seconds * share(k, PLAN_SAMPLES)))
         .collect();
-    if let Ok(path) = checked.recovery_after(checked) {
-        let (seconds, count) = (checked.recovery_seconds(), 3 * PLAN_SAMPLES);
-        postures.extend((1..count).map(|k| path.at(seconds * share(k, count))));
-    }
-    // Its engine data is scratch.
-    let scan = collision.clone().scan(&postures, f64::NEG_INFINITY);
-    scan.map_or(UNTRIED, |scan| {
-        (-scan.closest.closest.distance_m).max(0.0) / 0.01
-    })
+    let path = checked.recovery_after(checked)?;
+    let (seconds, count) = (checked.recovery_seconds(), 3 * PLAN_SAMPLES);
+    postures.extend((1..count).map(|k| path.at(seconds * share(k, count))));
+    Ok(postures)
 }
 
 /// Postures of a pull that are looked at for collisions; three times as many of a recovery.
 const PLAN_SAMPLES: usize = 8;
 
 #[cfg(test)]
-mod tests {
-    use super::super::setting::SettingKind;
-    use super::*;
-
-    fn warm(heat_per_metre: f64) -> Trial {
-        Trial {
-            setting: SettingKind::AsItIs,
-            advance: 0.1,
-            seconds: 2.0,
-            top: (0.2, "head"),
-            heat_per_metre,
-            peak_over_limit: (1.0, String::new()),
-            demanded_shoulder: heat_per_metre,
-            shoulder_saturated: 0.0,
-            body_share: 0.0,
-            yaw: 0.0,
-        }
-    }
-
-    #[test]
-    fn heats_merge_geometrically_or_to_the_worst_of_shares() {
-        let (four, nine, much) = (warm(4.0), warm(9.0), warm(81.0));
-        let mean = Merge::Mean.heat(&[&four, &nine]);
-        assert!((mean - 6.0).abs() < 1e-12, "{mean}");
-        let over = Merge::WorstOver(vec![8.0, 90.0]);
-        assert!((over.heat(&[&four, &nine]) - 0.5).abs() < 1e-12);
-        assert!((over.heat(&[&four, &much]) - 0.9).abs() < 1e-12);
-        // Of other objectives the robot's own servos decide.
-        let value = |objective: CycleObjective| objective.value(&[&four, &much], &Merge::Mean);
-        assert!((value(CycleObjective::Peak) - 4.0).abs() < 1e-12);
-        assert!((value(CycleObjective::Speed) + 0.05).abs() < 1e-12);
-    }
-
-    /// A cycle over itself is 1, whatever the servos.
-    #[test]
-    fn a_cycle_is_as_warm_as_itself() {
-        use prone_files::shipped;
-        use prone_sim::{LoadedRobot, RobotFiles};
-
-        let robot = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
-        let cycle = shipped::cycle("thesis-nominal").unwrap().unwrap();
-        let settings = super::super::settings::for_heat(&robot).unwrap();
-        let merge = Merge::worst_over(&settings, &cycle).unwrap();
-        let aim = Aim {
-            objective: CycleObjective::Heat,
-            merge,
-            rules: CycleRules {
-                demanded_shoulder: 1.0,
-                heat: 0.5,
-                ..CycleRules::FREE
-            },
-        };
-        let price = CyclePricer::new(&settings, aim, &cycle)
-            .unwrap()
-            .quote(&cycle);
-        assert!((price.value - 1.0).abs() < 1e-12, "{}", price.value);
-        // Stiff servos demand several times as much; only the robot's own are held to the rule.
-        let [own, stiff] = &price.trials[..] else {
-            panic!("two servos");
-        };
-        assert!(stiff.demanded_shoulder > 2.0 * own.demanded_shoulder);
-        // Twice the heat that is allowed, and what is demanded above 1 N·m.
-        assert!((price.violation - own.demanded_shoulder).abs() < 1e-12);
-    }
-}
+mod tests;

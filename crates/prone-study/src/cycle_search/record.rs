@@ -45,6 +45,12 @@ pub struct Found {
     pub value: Option<f64>,
     /// What it breaks of the rules of the search, in shares of their limits.
     pub violation: f64,
+    /// Why it could not be crawled in the settings of the search, where it could not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub refused: Option<String>,
+    /// Why the found cycle has lost the steering of the one that it was searched about, where it has.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unsteered: Option<String>,
     /// What it does in other settings.
     pub confirmed: Confirmed,
 }
@@ -66,6 +72,8 @@ impl Found {
             gait: cycle.pull.name.clone(),
             value: Some(price.value).filter(|value| value.is_finite()),
             violation: price.violation,
+            refused: price.refusal.as_ref().map(ToString::to_string),
+            unsteered: None,
             confirmed,
         }
     }

@@ -11,7 +11,7 @@ use prone_optim::Random;
 use prone_sim::regime::Servo;
 use prone_sim::{LoadedRobot, Regime, WorldError};
 
-use super::price::CycleRules;
+use super::rules::CycleRules;
 use super::setting::{Role, Setting, SettingKind, SettingSpec};
 
 /// Friction of the locomotion regime and the span over which a cycle has to hold.

@@ -4,18 +4,7 @@ use prone::crawl::Straight;
 use prone::gait::cycle::Cycle;
 use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, Detail, End};
 
-use super::setting::{Role, Setting, SettingKind};
-
-impl Role {
-    /// By how much a trial turns too much or too little, in shares of the limit.
-    pub fn misdirected(self, trial: &Trial) -> f64 {
-        match self {
-            Self::Turn(angle) => (1.0 - trial.yaw / angle).max(0.0),
-            Self::Straight { yaw, .. } => (trial.yaw.abs() / yaw - 1.0).max(0.0),
-            Self::Value | Self::Keep(_) | Self::Beside => 0.0,
-        }
-    }
-}
+use super::setting::{Setting, SettingKind};
 
 /// What a cycle came to in one setting; the last cycle of it.
 #[derive(Debug, Clone, PartialEq)]

@@ -23,12 +23,30 @@ impl Problem for GaitProblem<'_> {
             return Score::new(f64::MAX, 0.0);
         };
         let price = self.pricing.price(&gait);
-        // Without a torque part only the violation counts.
-        let torque = if price.torque.is_nan() {
-            0.0
-        } else {
-            price.torque
-        };
-        Score::new(price.violations.total(), torque)
+        let violation = price.violations.total();
+        Score::new(violation, counted(price.torque, violation))
+    }
+}
+
+/// The value of a score: where a rule is broken, what is not known does not count. Where none is, it
+/// stays not a number, which never wins.
+pub(crate) fn counted(value: f64, violation: f64) -> f64 {
+    if value.is_nan() && violation > 0.0 {
+        0.0
+    } else {
+        value
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limit_an_unknown_value_never_wins() {
+        let score = |violation, value| Score::new(violation, counted(value, violation));
+        assert!(score(0.0, 1e300).beats(&score(0.0, f64::NAN)));
+        assert_eq!(score(0.5, f64::NAN), Score::new(0.5, 0.0));
+        assert_eq!(score(0.5, 3.0), Score::new(0.5, 3.0));
     }
 }

@@ -1,0 +1,101 @@
+use prone_files::shipped;
+use prone_sim::RobotFiles;
+
+use super::super::price::{CycleObjective, Merge};
+use super::super::rules::CycleRules;
+use super::super::settings::{for_advance, for_steering, for_steering_confirmation};
+use super::*;
+
+#[test]
+fn a_cycle_that_ships_with_steering_can_be_steered() {
+    let robot = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
+    let settings = for_steering_confirmation(&robot).unwrap();
+    let cycle = |name: &str| shipped::cycle(name).unwrap().unwrap();
+    for cycle in shipped::cycle_names().map(cycle) {
+        if cycle.steering.is_some() {
+            assert_eq!(
+                check_steering(&settings, &cycle),
+                Ok(()),
+                "{}",
+                cycle.pull.name
+            );
+        }
+    }
+    // What would steer another one does not steer this.
+    let borrowed = Cycle {
+        steering: cycle("low-175").steering,
+        ..cycle("far-200")
+    };
+    let refused = check_steering(&settings, &borrowed).unwrap_err();
+    assert!(matches!(refused, NotSteered::ThrownOff { .. }), "{refused}");
+}
+
+/// The same cycle, steered the other way.
+fn reversed(cycle: &Cycle) -> Cycle {
+    let mut reversed = cycle.clone();
+    if let Some(steering) = &mut reversed.steering {
+        steering.spread = -steering.spread;
+        for factor in steering.joints.values_mut() {
+            *factor = -*factor;
+        }
+    }
+    reversed
+}
+
+/// A search for a cycle that can be steered: about one that turns to the left it finds one that does,
+/// about one that turns to the right by as much it finds none that counts.
+#[test]
+fn a_steerable_search_finds_what_turns_to_the_left() {
+    let robot = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
+    let mut settings = for_advance(&robot).unwrap();
+    settings.truncate(1);
+    settings.extend(for_steering(&robot).unwrap().into_iter().take(1));
+    let Role::Turn(least) = settings[1].spec.role else {
+        panic!("{:?}", settings[1].spec);
+    };
+    let aim = Aim {
+        objective: CycleObjective::Advance,
+        merge: Merge::Mean,
+        rules: CycleRules::FREE,
+    };
+    let left = shipped::cycle("low-175").unwrap().unwrap();
+    let best = |base: &Cycle| {
+        let hunt = Hunt::new(robot.robot(), &settings, aim.clone(), base).unwrap();
+        let mut search = Search::about_the_middle(1, 1, 16);
+        hunt.proceed(&mut search, |_| std::ops::ControlFlow::Continue(()));
+        let (_, best) = search.best().unwrap();
+        let (_, price) = hunt.quote(&best.point).unwrap();
+        (price.trials[1].yaw, price.violation)
+    };
+    let (yaw, violation) = best(&left);
+    assert!(yaw >= least && violation == 0.0, "{yaw} rad, {violation}");
+    let (yaw, violation) = best(&reversed(&left));
+    assert!(yaw < 0.0 && violation > 1.0, "{yaw} rad, {violation}");
+    let confirmation = for_steering_confirmation(&robot).unwrap();
+    let refused = check_steering(&confirmation, &reversed(&left)).unwrap_err();
+    let NotSteered::ThrownOff { turned, .. } = refused else {
+        panic!("{refused}");
+    };
+    assert!(turned < 0.0, "{turned} rad");
+    assert!(!confirm(&confirmation, &reversed(&left), f64::INFINITY).holds);
+}
+
+#[test]
+fn where_no_cycle_can_be_crawled_each_says_why() {
+    let robot = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
+    let settings = for_advance(&robot).unwrap();
+    let mut hasty = shipped::cycle("low-175").unwrap().unwrap();
+    hasty.recovery[0].approach.seconds = 0.1;
+    let cycles = [hasty];
+    let refused = base(&robot, &settings[0], &cycles, 0.2).unwrap_err();
+    let message = refused.to_string();
+    let mut lines = message.lines();
+    assert_eq!(
+        lines.next(),
+        Some("there is no cycle that NAO H25 V4 can crawl to begin with")
+    );
+    let why = lines.next().unwrap();
+    assert!(why.starts_with("  low-175: "), "{why}");
+    assert!(why.contains("above its limit of"), "{why}");
+    assert_eq!(lines.next(), None);
+}

@@ -1,0 +1,278 @@
+use prone_files::shipped;
+use prone_sim::{LoadedRobot, RobotFiles};
+
+use super::super::settings;
+use super::*;
+
+fn warm(heat_per_metre: f64) -> Trial {
+    Trial {
+        setting: SettingKind::AsItIs,
+        advance: 0.1,
+        seconds: 2.0,
+        top: (0.2, "head"),
+        heat_per_metre,
+        peak_over_limit: (1.0, String::new()),
+        demanded_shoulder: heat_per_metre,
+        shoulder_saturated: 0.0,
+        body_share: 0.0,
+        yaw: 0.0,
+    }
+}
+
+fn nao() -> LoadedRobot {
+    LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap()
+}
+
+fn cycle(name: &str) -> Cycle {
+    shipped::cycle(name).unwrap().unwrap()
+}
+
+const ADVANCE: Aim = Aim {
+    objective: CycleObjective::Advance,
+    merge: Merge::Mean,
+    rules: CycleRules::FREE,
+};
+
+#[track_caller]
+fn near(found: f64, expected: f64) {
+    assert!((found - expected).abs() < 1e-12, "{found}, not {expected}");
+}
+
+#[test]
+fn heats_merge_geometrically_or_to_the_worst_of_shares() {
+    let (four, nine, much) = (warm(4.0), warm(9.0), warm(81.0));
+    let mean = Merge::Mean.heat(&[&four, &nine]);
+    assert!((mean - 6.0).abs() < 1e-12, "{mean}");
+    let over = Merge::WorstOver(vec![8.0, 90.0]);
+    assert!((over.heat(&[&four, &nine]) - 0.5).abs() < 1e-12);
+    assert!((over.heat(&[&four, &much]) - 0.9).abs() < 1e-12);
+    // Of other objectives the robot's own servos decide.
+    let value = |objective: CycleObjective| objective.value(&[&four, &much], &Merge::Mean);
+    assert!((value(CycleObjective::Peak) - 4.0).abs() < 1e-12);
+    assert!((value(CycleObjective::Speed) + 0.05).abs() < 1e-12);
+    assert!((value(CycleObjective::Advance) + 0.1).abs() < 1e-12);
+    assert!((value(CycleObjective::Heat) - 18.0).abs() < 1e-12);
+}
+
+/// A heat that is not a number is the worst, whatever the others are.
+#[test]
+fn limit_a_heat_that_is_no_number_is_not_left_out() {
+    let (four, none) = (warm(4.0), warm(f64::NAN));
+    for merge in [Merge::Mean, Merge::WorstOver(vec![8.0, 90.0])] {
+        for trials in [[&four, &none], [&none, &four]] {
+            assert!(merge.heat(&trials).is_nan(), "{merge:?}");
+        }
+    }
+}
+
+/// A cycle over itself is 1, whatever the servos.
+#[test]
+fn a_cycle_is_as_warm_as_itself() {
+    let robot = nao();
+    let cycle = cycle("thesis-nominal");
+    let settings = settings::for_heat(&robot).unwrap();
+    let merge = Merge::worst_over(&settings, &cycle).unwrap();
+    let aim = Aim {
+        objective: CycleObjective::Heat,
+        merge,
+        rules: CycleRules {
+            demanded_shoulder: 1.0,
+            heat: 0.5,
+            ..CycleRules::FREE
+        },
+    };
+    let price = CyclePricer::new(&settings, aim, &cycle)
+        .unwrap()
+        .quote(&cycle);
+    assert!((price.value - 1.0).abs() < 1e-12, "{}", price.value);
+    assert_eq!(price.refusal, None);
+    // Stiff servos demand several times as much; only the robot's own are held to the rule.
+    let [own, stiff] = &price.trials[..] else {
+        panic!("two servos");
+    };
+    assert!(stiff.demanded_shoulder > 2.0 * own.demanded_shoulder);
+    // Twice the heat that is allowed, and what is demanded above 1 N·m.
+    assert!((price.violation - own.demanded_shoulder).abs() < 1e-12);
+}
+
+#[test]
+fn a_joint_may_not_be_stopped_further_than_in_the_base() {
+    let clamp = |joint: usize, largest: f64| Clamp {
+        joint: JointId(joint),
+        samples: 1,
+        largest,
+        from: 0.0,
+        to: 0.0,
+    };
+    // Which stop it is does not matter: those of a NAO's ankles are beyond either.
+    let allowed = [clamp(3, -0.2), clamp(5, 0.1)];
+    let further = |clamps: &[Clamp]| clamped_further(&allowed, clamps);
+    near(further(&[]), 0.0);
+    near(further(&[clamp(3, -0.2), clamp(5, 0.1)]), 0.0);
+    near(further(&[clamp(3, -0.1), clamp(5, -0.05)]), 0.0);
+    near(further(&[clamp(3, -0.25), clamp(5, 0.13)]), 0.08);
+    near(further(&[clamp(4, -0.03)]), 0.03);
+}
+
+#[test]
+fn a_joint_may_not_be_asked_for_more_speed() {
+    let speed = |speed: f64| CycleError::Speed {
+        cycle: String::new(),
+        place: String::new(),
+        joint: String::new(),
+        speed,
+        limit: 5.0,
+    };
+    near(excess_speed(&speed(5.0)), 0.0);
+    near(excess_speed(&speed(5.5)), 0.1);
+    near(excess_speed(&speed(f64::NAN)), UNTRIED);
+    let turn = CycleError::Turn {
+        cycle: String::new(),
+        turn_deg: 3.0,
+        limit_deg: 0.0,
+    };
+    near(excess_speed(&turn), UNTRIED);
+}
+
+#[test]
+fn limbs_may_not_be_in_one_another() {
+    near(depth(0.001), 0.0);
+    near(depth(0.0), 0.0);
+    near(depth(-0.001), 0.1);
+    for distance in [f64::NAN, f64::INFINITY] {
+        near(depth(distance), UNTRIED);
+    }
+}
+
+/// What a plan breaks before anything moves, and why it cannot be crawled.
+fn in_plan(base: &Cycle, rules: CycleRules, cycle: &Cycle) -> (f64, Option<Refusal>) {
+    let robot = nao();
+    let settings = &settings::for_advance(&robot).unwrap()[..1];
+    let aim = Aim { rules, ..ADVANCE };
+    CyclePricer::new(settings, aim, base)
+        .unwrap()
+        .broken_in_plan(cycle)
+}
+
+#[test]
+fn a_shipped_cycle_breaks_nothing_in_its_plan_and_a_longer_one_its_duration() {
+    let base = cycle("low-175");
+    let rules = settings::advance_rules(0.2, &base);
+    assert_eq!(in_plan(&base, rules, &base), (0.0, None));
+    let mut longer = base.clone();
+    longer.approach.seconds += 0.1 * rules.seconds;
+    let (broken, refusal) = in_plan(&base, rules, &longer);
+    near(broken, 0.1);
+    assert_eq!(refusal, None);
+}
+
+#[test]
+fn crossed_legs_are_as_deep_in_one_another_as_the_scan_says() {
+    let base = cycle("low-175");
+    let mut crossed = base.clone();
+    let roll = &mut crossed.recovery[0].joints;
+    roll.insert("LHipRoll".to_owned(), -0.3);
+    let (broken, refusal) = in_plan(&base, CycleRules::FREE, &crossed);
+    // A leg is some centimetres thick.
+    assert!((1.0..10.0).contains(&broken), "{broken} cm");
+    assert_eq!(refusal, None);
+}
+
+#[test]
+fn a_cycle_that_cannot_be_planned_says_why_and_by_how_much() {
+    let base = cycle("low-175");
+    let mut hasty = base.clone();
+    hasty.recovery[0].approach.seconds = 0.1;
+    let (broken, refusal) = in_plan(&base, CycleRules::FREE, &hasty);
+    let Some(Refusal::Plan(CycleError::Speed { speed, limit, .. })) = refusal else {
+        panic!("{refusal:?}");
+    };
+    near(broken, UNTRIED + speed / limit - 1.0);
+    let mut unknown = base.clone();
+    unknown.recovery[0].joints.insert("Tail".to_owned(), 0.1);
+    let (broken, refusal) = in_plan(&base, CycleRules::FREE, &unknown);
+    near(broken, 2.0 * UNTRIED);
+    let reason = refusal.unwrap().to_string();
+    assert!(reason.contains("has no joint Tail"), "{reason}");
+}
+
+/// A search stops at the first setting in which a rule is broken; a quotation does not.
+#[test]
+fn settings_after_a_broken_one_are_not_tried() {
+    let robot = nao();
+    let base = cycle("low-175");
+    // Played fast it asks too much of a joint's speed, and its plan is broken already.
+    let mut settings = settings::for_advance(&robot).unwrap();
+    settings.truncate(2);
+    settings[1].spec.role = Role::Keep(0.5);
+    let rules = CycleRules {
+        ceiling: 0.1,
+        ..CycleRules::FREE
+    };
+    let aim = Aim { rules, ..ADVANCE };
+    let pricer = CyclePricer::new(&settings, aim, &base).unwrap();
+    let (price, quote) = (pricer.price(&base), pricer.quote(&base));
+    assert_eq!((price.trials.len(), quote.trials.len()), (1, 2));
+    let too_high = |trial: &Trial| trial.top.0 / 0.1 - 1.0;
+    near(price.violation, too_high(&price.trials[0]) + UNTRIED);
+    let high: f64 = quote.trials.iter().map(too_high).sum();
+    near(quote.violation, high);
+    near(price.value, -price.trials[0].advance);
+}
+
+/// What happens in a setting is a reason too, with the setting's name.
+#[test]
+fn a_setting_that_cannot_be_crawled_is_named() {
+    let robot = nao();
+    let base = cycle("far-200");
+    assert_eq!(base.steering, None);
+    let mut settings = settings::for_advance(&robot).unwrap();
+    settings.truncate(1);
+    let turning = &settings::for_steering(&robot).unwrap()[0];
+    settings.push(turning.clone());
+    // A turn that the steering allows and joints are too slow for.
+    let mut hasty = base.clone();
+    hasty.steering = cycle("low-175").steering;
+    hasty.steering.as_mut().unwrap().limit = 3.0;
+    hasty.steering.as_mut().unwrap().spread = 3.0;
+    let pricer = CyclePricer::new(&settings, ADVANCE, &base).unwrap();
+    let price = pricer.price(&hasty);
+    let Some(Refusal::Crawl { setting, source }) = price.refusal else {
+        panic!("{price:?}");
+    };
+    assert_eq!(setting, settings[1].spec.kind);
+    near(price.violation, UNTRIED + excess_speed_of_crawl(&source));
+}
+
+#[test]
+fn limit_what_cannot_be_compared_is_refused() {
+    let base = cycle("low-175");
+    let settings = |files| settings::for_heat(&LoadedRobot::load(files).unwrap()).unwrap();
+    let shipped = RobotFiles::shipped(&shipped::NAO);
+    let unknown = RobotFiles {
+        toml: shipped.toml.replace("\nmotor = ", "\n#"),
+        ..shipped.clone()
+    };
+    let refused = |files, aim: Aim| {
+        let settings = settings(files);
+        let pricer = CyclePricer::new(&settings, aim, &base);
+        pricer.err().unwrap().to_string()
+    };
+    let other = Aim {
+        merge: Merge::WorstOver(vec![1.0; 3]),
+        ..ADVANCE
+    };
+    assert_eq!(
+        refused(shipped, other),
+        "3 heats to compare with are given, and 2 settings have a value"
+    );
+    // Its heat would be 0, whatever it does.
+    let heat = Aim {
+        objective: CycleObjective::Heat,
+        ..ADVANCE
+    };
+    assert_eq!(
+        refused(unknown, heat),
+        "no joint of NAO H25 V4 has a motor in robot.toml, without which there is no heat"
+    );
+}

@@ -1,0 +1,128 @@
+//! Rules that a crawled cycle keeps, and by how much it breaks them.
+//!
+//! With a value v and its limit, a rule is broken by
+//!
+//! ```text
+//! max(v / largest − 1, 0)    height, duration, demanded torque, heat, drift of the heading    (1)
+//! max(1 − v / least, 0)      advance, turn                                                    (2)
+//! max(v − largest, 0)        share of the weight on trunk and legs                            (3)
+//! ```
+//!
+//! What is not a number keeps no rule: it breaks it by [`UNTRIED`].
+
+use prone_sim::regime::Servo;
+
+use super::setting::Role;
+use super::trial::Trial;
+
+/// Violation of a setting that was not simulated, of a cycle that cannot be crawled, and of a value
+/// that is not a number: more than what is usually broken in a cycle that was simulated.
+pub const UNTRIED: f64 = 1.0;
+
+/// What holds in every setting.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CycleRules {
+    /// Highest point of the robot, m.
+    pub ceiling: f64,
+    /// Least advance per cycle where values count, m.
+    pub advance: f64,
+    /// Largest share of the weight on trunk and legs during the pull, 0 to 1.
+    pub body_share: f64,
+    /// Largest duration of a cycle, s.
+    pub seconds: f64,
+    /// Largest torque that a shoulder's servo demands, N·m, with the robot's own servo gains: a
+    /// servo that is five times as stiff asks for five times as much of the same lag, and no gait
+    /// would be left.
+    pub demanded_shoulder: f64,
+    /// Largest heat, merged over servos.
+    pub heat: f64,
+}
+
+impl CycleRules {
+    /// None but that it advances at all.
+    pub const FREE: Self = Self {
+        ceiling: f64::INFINITY,
+        advance: 0.01,
+        body_share: 1.0,
+        seconds: f64::INFINITY,
+        demanded_shoulder: f64::INFINITY,
+        heat: f64::INFINITY,
+    };
+
+    /// What a cycle of a duration, s, breaks.
+    pub(super) fn broken_by_duration(&self, seconds: f64) -> f64 {
+        above(seconds, self.seconds)
+    }
+
+    /// What a heat breaks, merged over the settings in which values count.
+    pub(super) fn broken_by_heat(&self, heat: f64) -> f64 {
+        if self.heat < f64::INFINITY {
+            above(heat, self.heat)
+        } else {
+            0.0
+        }
+    }
+
+    /// What a trial breaks in a setting of a role and with servos; the first setting's advance is
+    /// what others keep a share of, m.
+    pub(super) fn broken_by_trial(
+        &self,
+        role: Role,
+        servo: Servo,
+        trial: &Trial,
+        first_advance: f64,
+    ) -> f64 {
+        if role == Role::Beside {
+            return 0.0;
+        }
+        let least = match role.keep() {
+            None => self.advance,
+            Some(share) => share * first_advance.max(self.advance),
+        };
+        let mut broken = below(trial.advance, least);
+        broken += role.misdirected(trial);
+        broken += above(trial.top.0, self.ceiling);
+        if self.body_share < 1.0 && role == Role::Value {
+            broken += number(trial.body_share - self.body_share).max(0.0);
+        }
+        if servo == Servo::Robot {
+            broken += above(trial.demanded_shoulder, self.demanded_shoulder);
+        }
+        broken
+    }
+}
+
+impl Role {
+    /// By how much a trial turns too much or too little, in shares of the limit.
+    pub fn misdirected(self, trial: &Trial) -> f64 {
+        match self {
+            Self::Turn(angle) => below(trial.yaw, angle),
+            Self::Straight { yaw, .. } => above(trial.yaw.abs(), yaw),
+            Self::Value | Self::Keep(_) | Self::Beside => 0.0,
+        }
+    }
+}
+
+/// Equation (1); what may be infinite is not held.
+pub(super) fn above(value: f64, largest: f64) -> f64 {
+    if value <= largest {
+        return 0.0;
+    }
+    number(value / largest - 1.0).max(0.0)
+}
+
+/// Equation (2).
+fn below(value: f64, least: f64) -> f64 {
+    if value >= least {
+        return 0.0;
+    }
+    number(1.0 - value / least).max(0.0)
+}
+
+/// An amount that adds up and compares.
+fn number(amount: f64) -> f64 {
+    if amount.is_nan() { UNTRIED } else { amount }
+}
+
+#[cfg(test)]
+mod tests;

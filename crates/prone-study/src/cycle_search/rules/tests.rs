@@ -1,0 +1,296 @@
+use super::super::setting::SettingKind;
+use super::*;
+
+/// Limits that differ from one another.
+const RULES: CycleRules = CycleRules {
+    ceiling: 0.2,
+    advance: 0.1,
+    body_share: 0.3,
+    seconds: 4.0,
+    demanded_shoulder: 2.0,
+    heat: 50.0,
+};
+
+/// The first setting's advance, m.
+const FIRST: f64 = 0.16;
+
+/// The next number above a positive one, and the next one below it.
+fn next(limit: f64) -> (f64, f64) {
+    let above = f64::from_bits(limit.to_bits() + 1);
+    (above, f64::from_bits(limit.to_bits() - 1))
+}
+
+/// On every limit, and going straight.
+fn on_the_limit() -> Trial {
+    Trial {
+        setting: SettingKind::AsItIs,
+        advance: RULES.advance,
+        seconds: 4.0,
+        top: (RULES.ceiling, "head"),
+        heat_per_metre: RULES.heat,
+        peak_over_limit: (1.0, String::new()),
+        demanded_shoulder: RULES.demanded_shoulder,
+        shoulder_saturated: 0.0,
+        body_share: RULES.body_share,
+        yaw: 0.0,
+    }
+}
+
+fn broken(role: Role, trial: &Trial) -> f64 {
+    RULES.broken_by_trial(role, Servo::Robot, trial, FIRST)
+}
+
+#[track_caller]
+fn near(found: f64, expected: f64) {
+    assert!((found - expected).abs() < 1e-12, "{found}, not {expected}");
+}
+
+#[test]
+fn what_is_on_its_limit_breaks_nothing() {
+    near(broken(Role::Value, &on_the_limit()), 0.0);
+    near(RULES.broken_by_duration(RULES.seconds), 0.0);
+    near(RULES.broken_by_heat(RULES.heat), 0.0);
+    let beyond = Trial {
+        advance: 2.0 * RULES.advance,
+        top: (0.5 * RULES.ceiling, "head"),
+        demanded_shoulder: 0.5 * RULES.demanded_shoulder,
+        body_share: 0.5 * RULES.body_share,
+        ..on_the_limit()
+    };
+    near(broken(Role::Value, &beyond), 0.0);
+}
+
+/// Of each rule: just inside, a tenth outside, just outside, not a number. `amount` is what a tenth of
+/// the limit outside breaks.
+fn holds(limit: f64, inside: Side, amount: f64, broken: impl Fn(f64) -> f64) {
+    let (above, below) = next(limit);
+    let (inside, outside, far) = match inside {
+        Side::Below => (below, above, 1.1 * limit),
+        Side::Above => (above, below, 0.9 * limit),
+    };
+    near(broken(inside), 0.0);
+    // A difference in the last digit is as good as none, and must not count as much.
+    assert!((0.0..1e-12).contains(&broken(outside)), "{outside}");
+    near(broken(far), amount);
+    near(broken(f64::NAN), UNTRIED);
+}
+
+/// On which side of its limit a value is allowed.
+#[derive(Clone, Copy)]
+enum Side {
+    Below,
+    Above,
+}
+
+#[test]
+fn nothing_may_be_higher_than_the_ceiling() {
+    for role in [Role::Value, Role::Keep(0.5)] {
+        holds(RULES.ceiling, Side::Below, 0.1, |top| {
+            let trial = Trial {
+                top: (top, "head"),
+                ..on_the_limit()
+            };
+            broken(role, &trial)
+        });
+    }
+}
+
+#[test]
+fn a_cycle_may_not_last_longer() {
+    holds(RULES.seconds, Side::Below, 0.1, |seconds| {
+        RULES.broken_by_duration(seconds)
+    });
+}
+
+#[test]
+fn a_cycle_may_not_be_warmer() {
+    holds(RULES.heat, Side::Below, 0.1, |heat| {
+        RULES.broken_by_heat(heat)
+    });
+    let free = CycleRules::FREE;
+    near(free.broken_by_heat(f64::NAN), 0.0);
+}
+
+#[test]
+fn a_cycle_may_not_advance_less() {
+    let advanced = |role: Role| {
+        move |advance: f64| {
+            let trial = Trial {
+                advance,
+                ..on_the_limit()
+            };
+            broken(role, &trial)
+        }
+    };
+    holds(RULES.advance, Side::Above, 0.1, advanced(Role::Value));
+    // Where it has to hold, it keeps a share of what it does in the first setting.
+    holds(0.85 * FIRST, Side::Above, 0.1, advanced(Role::Keep(0.85)));
+    let straight = Role::Straight {
+        yaw: 0.05,
+        keep: 0.85,
+    };
+    holds(0.85 * FIRST, Side::Above, 0.1, advanced(straight));
+    // Going backwards breaks more than standing still.
+    near(advanced(Role::Value)(0.0), 1.0);
+    near(advanced(Role::Value)(-RULES.advance), 2.0);
+}
+
+/// A first setting that advances too little leaves the others no easier task.
+#[test]
+fn a_share_is_at_least_that_of_the_least_advance() {
+    let trial = Trial {
+        advance: 0.5 * 0.85 * RULES.advance,
+        ..on_the_limit()
+    };
+    let role = Role::Keep(0.85);
+    for first in [0.2 * RULES.advance, 0.0, -1.0, f64::NAN] {
+        near(
+            RULES.broken_by_trial(role, Servo::Robot, &trial, first),
+            0.5,
+        );
+    }
+}
+
+#[test]
+fn trunk_and_legs_may_not_carry_more_where_values_count() {
+    let carried = |role: Role| {
+        move |body_share: f64| {
+            let trial = Trial {
+                advance: FIRST,
+                body_share,
+                ..on_the_limit()
+            };
+            broken(role, &trial)
+        }
+    };
+    holds(RULES.body_share, Side::Below, 0.03, carried(Role::Value));
+    near(carried(Role::Keep(0.85))(0.9), 0.0);
+    let free = CycleRules {
+        body_share: 1.0,
+        ..RULES
+    };
+    let trial = Trial {
+        body_share: 1.0,
+        ..on_the_limit()
+    };
+    near(
+        free.broken_by_trial(Role::Value, Servo::Robot, &trial, FIRST),
+        0.0,
+    );
+}
+
+#[test]
+fn a_shoulders_own_servo_may_not_demand_more() {
+    let demanded = |servo: Servo| {
+        move |demanded_shoulder: f64| {
+            let trial = Trial {
+                demanded_shoulder,
+                ..on_the_limit()
+            };
+            RULES.broken_by_trial(Role::Value, servo, &trial, FIRST)
+        }
+    };
+    let limit = RULES.demanded_shoulder;
+    holds(limit, Side::Below, 0.1, demanded(Servo::Robot));
+    near(demanded(Servo::Uniform(20.0))(10.0 * limit), 0.0);
+}
+
+#[test]
+fn nothing_is_asked_of_what_stands_beside() {
+    let bad = Trial {
+        advance: -1.0,
+        top: (9.0, "head"),
+        demanded_shoulder: f64::NAN,
+        body_share: 1.0,
+        yaw: 3.0,
+        ..on_the_limit()
+    };
+    near(broken(Role::Beside, &bad), 0.0);
+}
+
+#[test]
+fn what_breaks_several_rules_breaks_their_sum() {
+    let trial = Trial {
+        advance: 0.9 * RULES.advance,
+        top: (1.2 * RULES.ceiling, "head"),
+        demanded_shoulder: 1.3 * RULES.demanded_shoulder,
+        body_share: RULES.body_share + 0.4,
+        ..on_the_limit()
+    };
+    near(broken(Role::Value, &trial), 0.1 + 0.2 + 0.3 + 0.4);
+}
+
+/// What is not limited may be infinite.
+#[test]
+fn limit_an_infinite_value_keeps_a_rule_without_a_limit_and_no_other() {
+    let infinite = f64::INFINITY;
+    near(above(infinite, infinite), 0.0);
+    near(CycleRules::FREE.broken_by_duration(infinite), 0.0);
+    assert!(RULES.broken_by_duration(infinite).is_infinite());
+}
+
+/// Turned by an angle, rad, and far enough for every role.
+fn turned(yaw: f64) -> Trial {
+    Trial {
+        advance: FIRST,
+        yaw,
+        ..on_the_limit()
+    }
+}
+
+/// A positive yaw is to the left: turning to the right as far as it should turn to the left is worse
+/// than not turning at all.
+#[test]
+fn a_turn_is_to_the_left() {
+    let role = Role::Turn(0.1);
+    holds(0.1, Side::Above, 0.1, |yaw| role.misdirected(&turned(yaw)));
+    near(role.misdirected(&turned(0.3)), 0.0);
+    near(role.misdirected(&turned(0.0)), 1.0);
+    near(role.misdirected(&turned(-0.1)), 2.0);
+    near(broken(role, &turned(0.1)), 0.0);
+    near(broken(role, &turned(-0.1)), 2.0);
+}
+
+#[test]
+fn straight_is_straight_to_both_sides() {
+    let role = Role::Straight {
+        yaw: 0.05,
+        keep: 0.85,
+    };
+    for side in [1.0, -1.0] {
+        holds(0.05, Side::Below, 0.1, |yaw| {
+            role.misdirected(&turned(side * yaw))
+        });
+        near(role.misdirected(&turned(side * 0.1)), 1.0);
+        near(broken(role, &turned(side * 0.1)), 1.0);
+    }
+}
+
+#[test]
+fn other_roles_do_not_ask_for_a_direction() {
+    for role in [Role::Value, Role::Keep(0.85), Role::Beside] {
+        for yaw in [1.0, -1.0] {
+            near(role.misdirected(&turned(yaw)), 0.0);
+        }
+    }
+}
+
+#[test]
+fn roles_keep_their_shares() {
+    let share = |role: Role| role.keep().unwrap_or(f64::NAN);
+    near(share(Role::Keep(0.7)), 0.7);
+    let straight = Role::Straight {
+        yaw: 0.05,
+        keep: 0.6,
+    };
+    near(share(straight), 0.6);
+    // Half of the advance is left where it turns as hard as it can.
+    near(share(Role::Turn(0.1)), 0.5);
+    assert_eq!((Role::Value.keep(), Role::Beside.keep()), (None, None));
+    let slow = Trial {
+        advance: 0.25 * FIRST,
+        yaw: 0.1,
+        ..on_the_limit()
+    };
+    near(broken(Role::Turn(0.1), &slow), 0.5);
+}
