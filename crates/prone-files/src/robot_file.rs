@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
+use crate::defaults::DefaultsTable;
 use crate::error::{FileError, Source};
 use crate::exactly::{Exactly, exactly};
 
@@ -22,6 +23,8 @@ pub type Name = Spanned<String>;
 pub struct RobotFile {
     /// The maker's name of the model.
     pub name: String,
+    /// The family that the robot is a version of.
+    pub family: Option<Name>,
     /// The MJCF file beside this one.
     pub model: Name,
     /// How high the robot stands, mm.
@@ -42,6 +45,9 @@ pub struct RobotFile {
     pub study: StudyTable,
     /// The inertial measurement unit.
     pub imu: Option<ImuTable>,
+    /// Which gaits the program uses.
+    #[serde(default)]
+    pub defaults: DefaultsTable,
 }
 
 /// `[chain]`
@@ -193,7 +199,10 @@ impl RobotFile {
     /// # Errors
     /// [`FileError`] with line and column.
     pub fn parse(file: &str, text: &str) -> Result<Self, FileError> {
-        Source { file, text }.parse()
+        let source = Source { file, text };
+        let robot: Self = source.parse()?;
+        robot.defaults.check(source)?;
+        Ok(robot)
     }
 
     /// An error at a name of this file; `file` and `text` as given to [`RobotFile::parse`].
