@@ -38,9 +38,30 @@ pub struct GaitText {
     pub file: String,
     /// Its text.
     pub text: Cow<'static, str>,
+    /// Where it was read; nowhere if it ships.
+    pub read: Option<PathBuf>,
 }
 
 impl GaitText {
+    /// Reads a gait's file.
+    ///
+    /// # Errors
+    /// [`RobotFolderError::Read`].
+    pub fn read(path: &Path) -> Result<Self, RobotFolderError> {
+        let read = Some(path.to_owned());
+        match text_file::read(path) {
+            Ok(text) => Ok(Self {
+                file: path.display().to_string(),
+                text: text.into(),
+                read,
+            }),
+            Err(source) => Err(RobotFolderError::Read {
+                path: path.to_owned(),
+                source,
+            }),
+        }
+    }
+
     /// Whether it holds a whole cycle, and not a pull alone.
     pub fn is_cycle(&self) -> bool {
         cycle_file::is_cycle(&self.text)
@@ -76,11 +97,7 @@ impl Gaits {
                 if !path.exists() {
                     return Ok(shipped::gait_file(name));
                 }
-                let file = path.display().to_string();
-                let text = text_file::read(&path)
-                    .map_err(|source| RobotFolderError::Read { path, source })?;
-                let text = text.into();
-                Ok(Some(GaitText { file, text }))
+                GaitText::read(&path).map(Some)
             }
         }
     }

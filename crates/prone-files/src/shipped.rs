@@ -106,6 +106,7 @@ impl FamilySource {
         Some(GaitText {
             file: format!("{}/gaits/{name}.toml", self.folder),
             text: (*text).into(),
+            read: None,
         })
     }
 
