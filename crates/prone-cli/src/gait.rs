@@ -81,8 +81,8 @@ fn unknown(
 ) -> Failure {
     let own = match (gaits, own) {
         (_, Err(error)) => return Failure::input(error),
-        (Gaits::Folder(folder), Ok(own)) => {
-            format!("in {} ({}), ", folder.display(), own.join(", "))
+        (Gaits::Folder(folder), Ok(own)) if !own.is_empty() => {
+            format!("in {} ({}), nor ", folder.display(), own.join(", "))
         }
         (_, Ok(_)) => String::new(),
     };
