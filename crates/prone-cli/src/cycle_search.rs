@@ -9,6 +9,7 @@ use anyhow::anyhow;
 use serde_json::{Value, json};
 
 use prone::gait::cycle::Cycle;
+use prone_files::defaults::CycleDefaults;
 use prone_sim::LoadedRobot;
 use prone_study::cycle_search::frontier::{self, Hunt};
 use prone_study::cycle_search::passage::too_low;
@@ -23,8 +24,6 @@ use crate::args::pricing::ObjectiveName;
 use crate::{Failure, passage};
 use pursuit::pursue;
 
-/// Cycles about which is searched where none are named.
-const FROM: [&str; 2] = ["low-175", "low-165"];
 /// Most evaluations of a run of `prone optimize` where none are asked for.
 const BUDGET: u64 = 1600;
 
@@ -37,6 +36,8 @@ struct Quest<'a> {
     confirmation: Vec<Setting>,
     /// In which it shows whether a found cycle can be steered.
     steering: Vec<Setting>,
+    /// What a found cycle is compared with.
+    compared: Vec<Cycle>,
     seed: u64,
     runs: u64,
     budget: u64,
@@ -60,8 +61,9 @@ struct Job<'a> {
 /// `prone crawl frontier`.
 pub(crate) fn frontier(args: &FrontierArgs) -> Result<(), Failure> {
     let robot = crate::robot::load(args.robot.as_deref())?;
-    let from = names(&args.from);
-    let cycles = passage::cycles(&from)?;
+    let defaults = robot.files().defaults().map_err(Failure::input)?.cycle;
+    let from = names(&args.from, &defaults);
+    let cycles = passage::cycles(&robot, &from)?;
     let objective = match args.against {
         AgainstName::Advance => CycleObjective::Advance,
         AgainstName::Heat => CycleObjective::Heat,
@@ -103,6 +105,7 @@ pub(crate) fn frontier(args: &FrontierArgs) -> Result<(), Failure> {
         jobs,
         confirmation: confirmation_for(objective, steered(args.steerable), &robot)?,
         steering: settings::for_steering_confirmation(&robot).map_err(Failure::input)?,
+        compared: passage::cycles(&robot, &defaults.compared)?,
         seed: args.seed,
         runs: args.runs,
         budget: args.budget,
@@ -130,8 +133,9 @@ pub(crate) fn optimize(args: &OptimizeArgs) -> Result<(), Failure> {
         }
     };
     let robot = crate::robot::load(args.pricing.robot.as_deref())?;
-    let from = names(args.pricing.from.as_slice());
-    let cycles = passage::cycles(&from)?;
+    let defaults = robot.files().defaults().map_err(Failure::input)?.cycle;
+    let from = names(args.pricing.from.as_slice(), &defaults);
+    let cycles = passage::cycles(&robot, &from)?;
     let settings = settings_for(objective, steered(args.steerable), &robot)?;
     let height = args.ceiling_mm.map_or(f64::INFINITY, |mm| mm * 1e-3);
     if let Some(mm) = args.ceiling_mm {
@@ -166,7 +170,7 @@ pub(crate) fn optimize(args: &OptimizeArgs) -> Result<(), Failure> {
     });
     let aim = Aim {
         objective,
-        merge: merge(args, &settings, objective)?,
+        merge: merge(args, &robot, &settings, objective)?,
         rules,
     };
     let jobs = vec![job(&robot, &settings, aim, base, args.ceiling_mm)?];
@@ -177,6 +181,7 @@ pub(crate) fn optimize(args: &OptimizeArgs) -> Result<(), Failure> {
         jobs,
         confirmation: confirmation_for(objective, steered(args.steerable), &robot)?,
         steering: settings::for_steering_confirmation(&robot).map_err(Failure::input)?,
+        compared: passage::cycles(&robot, &defaults.compared)?,
         seed: args.seed,
         runs: args.runs,
         budget: args.budget.unwrap_or(BUDGET),
@@ -196,6 +201,7 @@ pub(crate) fn optimize(args: &OptimizeArgs) -> Result<(), Failure> {
 /// The mean over settings, or the worst over another cycle's values.
 fn merge(
     args: &OptimizeArgs,
+    robot: &LoadedRobot,
     settings: &[Setting],
     objective: CycleObjective,
 ) -> Result<Merge, Failure> {
@@ -212,7 +218,7 @@ fn merge(
     let Some(name) = &args.worst_over else {
         return Ok(Merge::Mean);
     };
-    let cycle = passage::find(name)?;
+    let cycle = passage::find(robot, name)?;
     Merge::worst_over(settings, &cycle)
         .map_err(|error| Failure::Input(anyhow!("--worst-over {name}: {error}")))
 }
@@ -247,9 +253,9 @@ fn refuse_options_of_pulls(args: &OptimizeArgs) -> Result<(), Failure> {
     }
 }
 
-fn names<T: AsRef<[String]>>(given: T) -> Vec<String> {
+fn names<T: AsRef<[String]>>(given: T, defaults: &CycleDefaults) -> Vec<String> {
     match given.as_ref() {
-        [] => FROM.map(str::to_owned).to_vec(),
+        [] => defaults.from.clone(),
         given => given.to_vec(),
     }
 }

@@ -9,8 +9,10 @@ use anyhow::anyhow;
 
 use prone::gait::cycle::CycleError;
 use prone::gait::{Gait, PhaseDuration};
+use prone::mapping::{ArmMode, MappingVariant};
 use prone::robot::Robot;
-use prone_files::robot_file::RobotFile;
+use prone_files::gaits::{GaitText, Gaits};
+use prone_files::robot_folder::RobotFolderError;
 use prone_files::{cycle_file, gait_file, shipped, text_file};
 use prone_sim::LoadedRobot;
 use prone_study::crawl::GaitSource;
@@ -22,59 +24,92 @@ use crate::{Failure, table_file};
 /// Every how many of the 101 instants one is printed.
 const PRINTED_EVERY: usize = 10;
 
-/// A shipped gait by name, or the gait of a file.
-pub(crate) fn find(name: &str) -> Result<Gait, Failure> {
-    if let Some(gait) = shipped::gait(name) {
-        return gait.map_err(Failure::input);
-    }
-    let path = Path::new(name);
-    if !path.exists() {
-        let known: Vec<_> = shipped::gait_names().collect();
-        return Err(Failure::Input(anyhow!(
-            "there is no gait {name:?}: it is neither one that ships with prone ({}) nor a file",
-            known.join(", ")
-        )));
-    }
-    let text = text_file::read(path)
-        .map_err(|error| Failure::Input(anyhow!("cannot read {name}: {error}")))?;
-    gait_file::parse(name, &text).map_err(Failure::input)
+/// A pull by name, of the robot's own or of what ships, or the pull of a file.
+pub(crate) fn find(gaits: &Gaits, name: &str) -> Result<Gait, Failure> {
+    let named = gaits.find(name).map_err(Failure::input)?;
+    let gait = match named.filter(|gait| !gait.is_cycle()) {
+        Some(gait) => gait,
+        None => in_file(name)?.ok_or_else(|| {
+            let own = gaits.own_pulls();
+            unknown("gait", name, gaits, own, &mut shipped::gait_names())
+        })?,
+    };
+    gait_file::parse(&gait.file, &gait.text).map_err(Failure::input)
 }
 
-/// A shipped cycle by name, or the cycle of a file, with the text of that file.
-pub(crate) fn find_cycle(name: &str) -> Result<GaitSource, Failure> {
-    if let (Some(cycle), Some(text)) = (shipped::cycle(name), shipped::cycle_text(name)) {
-        return Ok(GaitSource {
-            cycle: cycle.map_err(Failure::input)?,
-            file: format!("robots/nao/gaits/{name}.toml"),
-            text: text.to_owned(),
-        });
-    }
-    let known: Vec<_> = shipped::cycle_names().collect();
-    let known = known.join(", ");
-    if shipped::gait(name).is_some() {
-        return Err(Failure::Input(anyhow!(
-            "{name} is a pull alone: a crawl needs a cycle with its way back, one that ships with \
-             prone ({known}) or a file"
-        )));
-    }
+/// A cycle by name, of the robot's own or of what ships, or the cycle of a file; with the text of its
+/// file.
+pub(crate) fn find_cycle(gaits: &Gaits, name: &str) -> Result<GaitSource, Failure> {
+    let gait = match gaits.find(name).map_err(Failure::input)? {
+        Some(gait) if gait.is_cycle() => gait,
+        Some(_) => {
+            let known: Vec<_> = shipped::cycle_names().collect();
+            return Err(Failure::Input(anyhow!(
+                "{name} is a pull alone: a crawl needs a cycle with its way back, one that ships with \
+                 prone ({}) or a file",
+                known.join(", ")
+            )));
+        }
+        None => in_file(name)?.ok_or_else(|| {
+            let own = gaits.own_cycles();
+            unknown("cycle", name, gaits, own, &mut shipped::cycle_names())
+        })?,
+    };
+    Ok(GaitSource {
+        cycle: cycle_file::parse(&gait.file, &gait.text).map_err(Failure::input)?,
+        file: gait.file,
+        text: gait.text.into_owned(),
+    })
+}
+
+/// The file that a user names, if there is one.
+fn in_file(name: &str) -> Result<Option<GaitText>, Failure> {
     let path = Path::new(name);
     if !path.exists() {
-        return Err(Failure::Input(anyhow!(
-            "there is no cycle {name:?}: it is neither one that ships with prone ({known}) nor a file"
-        )));
+        return Ok(None);
     }
-    let text = text_file::read(path)
-        .map_err(|error| Failure::Input(anyhow!("cannot read {name}: {error}")))?;
-    Ok(GaitSource {
-        cycle: cycle_file::parse(name, &text).map_err(Failure::input)?,
-        file: name.to_owned(),
-        text,
-    })
+    GaitText::read(path).map(Some).map_err(Failure::input)
+}
+
+/// A name that is nowhere, with those that are.
+fn unknown(
+    noun: &str,
+    name: &str,
+    gaits: &Gaits,
+    own: Result<Vec<String>, RobotFolderError>,
+    shipped: &mut dyn Iterator<Item = &'static str>,
+) -> Failure {
+    let own = match (gaits, own) {
+        (_, Err(error)) => return Failure::input(error),
+        (Gaits::Folder(folder), Ok(own)) if !own.is_empty() => {
+            format!("in {} ({}), nor ", folder.display(), own.join(", "))
+        }
+        (_, Ok(_)) => String::new(),
+    };
+    let shipped: Vec<&str> = shipped.collect();
+    Failure::Input(anyhow!(
+        "there is no {noun} {name:?}: it is neither {own}one that ships with prone ({}) nor a file",
+        shipped.join(", ")
+    ))
 }
 
 /// Whether a cycle is one that ships with prone, and not a user's.
 pub(crate) fn is_shipped(gait: &GaitSource) -> bool {
-    shipped::cycle_text(&gait.cycle.pull.name) == Some(gait.text.as_str())
+    let shipped = shipped::gait_file(&gait.cycle.pull.name);
+    shipped.is_some_and(|shipped| shipped.text == gait.text)
+}
+
+/// Whether a robot has what a gait's mapping and arms need.
+pub(crate) fn can_follow(robot: &Robot, gait: &Gait) -> bool {
+    let mapped = match gait.mapping {
+        MappingVariant::Original => robot.chain.published.is_some(),
+        MappingVariant::Exact => true,
+    };
+    let armed = match gait.arm {
+        ArmMode::Fixed => robot.chain.fixed_arm.is_some(),
+        ArmMode::FlatForearm => true,
+    };
+    mapped && armed
 }
 
 /// A cycle that the robot cannot crawl: in a user's file, where that is.
@@ -93,18 +128,20 @@ pub(crate) fn refused(gait: &GaitSource, error: &CycleError) -> Failure {
 const DURATION_S: f64 = 5.0;
 
 pub(crate) fn show(args: &GaitShowArgs) -> Result<(), Failure> {
-    if shipped::cycle(&args.gait).is_some() || is_cycle_file(&args.gait) {
-        return cycle::show(args);
-    }
-    let gait = find(&args.gait)?;
     let loaded = crate::robot::load(args.robot.as_deref())?;
+    let gaits = &loaded.files().gaits;
+    let named = gaits.find(&args.gait).map_err(Failure::input)?;
+    if named.map_or_else(|| is_cycle_file(&args.gait), |gait| gait.is_cycle()) {
+        return cycle::show(args, &loaded);
+    }
+    let gait = find(gaits, &args.gait)?;
     let duration = match args.duration {
         Some(duration) => duration,
         None => PhaseDuration::new(DURATION_S).map_err(Failure::input)?,
     };
     let sheet = gait_sheet::of(loaded.robot(), &gait, duration).map_err(Failure::input)?;
     if let Some(path) = &args.csv {
-        write_csv(&sheet, path, &inputs(args, &loaded))?;
+        write_csv(&sheet, path, &inputs(args, &loaded)?)?;
     }
     let mut out = std::io::stdout().lock();
     if args.json {
@@ -126,17 +163,11 @@ fn is_cycle_file(name: &str) -> bool {
 }
 
 /// The files that were read.
-fn inputs(args: &GaitShowArgs, loaded: &LoadedRobot) -> Vec<PathBuf> {
-    let mut inputs = Vec::new();
-    if shipped::gait(&args.gait).is_none() && shipped::cycle(&args.gait).is_none() {
-        inputs.push(PathBuf::from(&args.gait));
-    }
-    if let Some(folder) = &args.robot {
-        inputs.push(folder.join("robot.toml"));
-        let table = RobotFile::parse("robot.toml", &loaded.files().toml);
-        inputs.extend(table.map(|table| folder.join(table.model.get_ref())));
-    }
-    inputs
+fn inputs(args: &GaitShowArgs, loaded: &LoadedRobot) -> Result<Vec<PathBuf>, Failure> {
+    let files = loaded.files();
+    let named = files.gaits.find(&args.gait).map_err(Failure::input)?;
+    let gait = named.map_or_else(|| Some(PathBuf::from(&args.gait)), |gait| gait.read);
+    Ok(gait.into_iter().chain(files.read.iter().cloned()).collect())
 }
 
 fn write_csv(sheet: &GaitSheet, path: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {

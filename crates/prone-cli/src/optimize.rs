@@ -31,17 +31,16 @@ const BUDGET: u64 = 100_000;
 /// The same where each is a simulation.
 const DYNAMIC_BUDGET: u64 = 3_000;
 
-/// The gaits that a found one is compared with, where the robot can follow them.
-const COMPARED: [&str; 2] = ["nominal", "optimal"];
-
 pub(crate) fn run(args: &OptimizeArgs) -> Result<(), Failure> {
     if args.pricing.source == "cycle" {
         return crate::cycle_search::optimize(args);
     }
     refuse_cycle_options(args)?;
-    let pricing = Pricing::new(&args.pricing, None)?;
+    let robot = crate::robot::load(args.pricing.robot.as_deref())?;
+    let pricing = Pricing::new(&args.pricing, robot, None)?;
     check_form(args, &pricing)?;
     check_name(args, &pricing)?;
+    let compared = compared(&pricing)?;
     let pricer = pricer::pricer(&pricing.world, &pricing.terms()).map_err(Failure::input)?;
     let ends = match args.ends {
         EndsName::Fixed => Ends::Fixed,
@@ -72,7 +71,7 @@ pub(crate) fn run(args: &OptimizeArgs) -> Result<(), Failure> {
     let searched = started.elapsed();
 
     let gait = found_gait(args, &hunt, &search, &pricing)?;
-    let mut gaits = compared(&pricing);
+    let mut gaits = compared;
     gaits.push(gait);
     // From here on a search that is stopped is kept.
     let place = checkpoint.path().to_owned();
@@ -147,7 +146,8 @@ fn check_form(args: &OptimizeArgs, pricing: &Pricing) -> Result<(), Failure> {
 /// The confirmation tells gaits apart by their names.
 fn check_name(args: &OptimizeArgs, pricing: &Pricing) -> Result<(), Failure> {
     let name = gait_name(args);
-    if name == pricing.base.name || COMPARED.contains(&name.as_str()) {
+    let defaults = pricing.robot.files().defaults().map_err(Failure::input)?;
+    if name == pricing.base.name || defaults.pull.compared.contains(&name) {
         return Err(Failure::Input(anyhow!(
             "the found gait would be called {name:?}, like one that it is compared with: give it another --name"
         )));
@@ -298,16 +298,19 @@ fn found_gait(
     })
 }
 
-/// The published gaits, and the base gait first, each once.
-fn compared(pricing: &Pricing) -> Vec<Gait> {
+/// The base gait first, then those that the robot's `[defaults]` name and it can follow, each once.
+fn compared(pricing: &Pricing) -> Result<Vec<Gait>, Failure> {
+    let files = pricing.robot.files();
+    let defaults = files.defaults().map_err(Failure::input)?;
     let mut gaits = vec![pricing.base.clone()];
-    if pricing.world.robot().chain.published.is_some() {
-        let published = COMPARED
-            .into_iter()
-            .filter_map(|name| crate::gait::find(name).ok());
-        gaits.extend(published.filter(|gait| gait.name != pricing.base.name));
+    for name in &defaults.pull.compared {
+        let gait = crate::gait::find(&files.gaits, name)?;
+        let twice = gaits.iter().any(|other| other.name == gait.name);
+        if !twice && crate::gait::can_follow(pricing.robot.robot(), &gait) {
+            gaits.push(gait);
+        }
     }
-    gaits
+    Ok(gaits)
 }
 
 fn confirmed(

@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use anyhow::anyhow;
 
 use prone::gait::cycle::Cycle;
-use prone_files::{cycle_file, shipped};
+use prone_files::cycle_file;
 use prone_sim::LoadedRobot;
 use prone_study::cycle_search::frontier::{self, Hunt};
 use prone_study::cycle_search::passage::{Passage, Tried};
@@ -20,22 +20,23 @@ use crate::gait::{find_cycle, is_shipped};
 use crate::progress::SearchProgress;
 use crate::{Failure, interrupt, table_file};
 
-/// A shipped cycle by name, or the cycle of a file.
-pub(crate) fn find(name: &str) -> Result<Cycle, Failure> {
-    Ok(find_cycle(name)?.cycle)
+/// A cycle by name, or the cycle of a file.
+pub(crate) fn find(robot: &LoadedRobot, name: &str) -> Result<Cycle, Failure> {
+    Ok(find_cycle(&robot.files().gaits, name)?.cycle)
 }
 
 /// Cycles by name.
-pub(crate) fn cycles(names: &[String]) -> Result<Vec<Cycle>, Failure> {
-    names.iter().map(|name| find(name)).collect()
+pub(crate) fn cycles(robot: &LoadedRobot, names: &[String]) -> Result<Vec<Cycle>, Failure> {
+    names.iter().map(|name| find(robot, name)).collect()
 }
 
-/// Cycles by name, or all that ship, each with where it comes from.
-fn sources(names: &[String]) -> Result<Vec<(Cycle, &'static str)>, Failure> {
-    let all: Vec<String> = shipped::cycle_names().map(str::to_owned).collect();
-    let names = if names.is_empty() { &all } else { names };
+/// Cycles by name, or those that the robot's `[defaults]` name, each with where it comes from.
+fn sources(robot: &LoadedRobot, names: &[String]) -> Result<Vec<(Cycle, &'static str)>, Failure> {
+    let files = robot.files();
+    let usual = files.defaults().map_err(Failure::input)?.cycle.under;
+    let names = if names.is_empty() { &usual } else { names };
     let sources = names.iter().map(|name| {
-        let source = find_cycle(name)?;
+        let source = find_cycle(&files.gaits, name)?;
         let origin = if is_shipped(&source) {
             "shipped"
         } else {
@@ -48,7 +49,7 @@ fn sources(names: &[String]) -> Result<Vec<(Cycle, &'static str)>, Failure> {
 
 pub(crate) fn run(args: &UnderArgs) -> Result<(), Failure> {
     let robot = crate::robot::load(args.robot.as_deref())?;
-    let sources = sources(&args.gait)?;
+    let sources = sources(&robot, &args.gait)?;
     let settings = settings::for_advance(&robot).map_err(Failure::input)?;
     let (ceiling, margin) = (args.ceiling_mm * 1e-3, args.margin_mm * 1e-3);
     if margin >= ceiling {

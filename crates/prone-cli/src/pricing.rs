@@ -8,6 +8,8 @@ use serde_json::{Value, json};
 use prone::cost::published::PublishedRules;
 use prone::gait::{Gait, PhaseDuration};
 use prone::torque_map::{self, TorqueMap};
+use prone_files::defaults::PullDefaults;
+use prone_files::gaits::Gaits;
 use prone_files::text_file;
 use prone_sim::{LoadedRobot, Regime, World};
 use prone_study::optimize::objective::Objective;
@@ -27,12 +29,6 @@ const RATE_DEG_PER_PHASE: f64 = 200.0;
 
 /// Largest weight: squares of torques times it are far from overflowing.
 const HEAVIEST: f64 = 1e6;
-
-/// Gait about which is searched where none is named.
-const FROM: &str = "nominal";
-
-/// Gait whose body share is the limit where none is asked for.
-const SHARE_OF: &str = "optimal";
 
 /// Everything that decides a price, loaded.
 pub(crate) struct Pricing {
@@ -56,19 +52,36 @@ enum LoadedSource {
 }
 
 impl Pricing {
-    /// Checks and loads what was typed; `priced` is the gait to price, where there is one.
-    pub(crate) fn new(args: &PricingArgs, priced: Option<&Gait>) -> Result<Self, Failure> {
+    /// Checks what was typed, and loads the rest; `priced` is the gait to price, where there is one.
+    pub(crate) fn new(
+        args: &PricingArgs,
+        robot: LoadedRobot,
+        priced: Option<&Gait>,
+    ) -> Result<Self, Failure> {
         let aim = aim(args)?;
         let source = source(&args.source)?;
-        let base = base(args, priced)?;
-        let robot = crate::robot::load(args.robot.as_deref())?;
+        let files = robot.files();
+        let defaults = files.defaults().map_err(Failure::input)?.pull;
+        let base = base(args, &files.gaits, &defaults, priced)?;
         let world = World::new(&robot, Regime::TORQUE_STUDY).map_err(Failure::input)?;
         let duration = match args.duration {
             Some(duration) => duration,
             None => PhaseDuration::new(DURATION_S).map_err(Failure::input)?,
         };
         let clearance = clearance(args, &source, &world, &base)?;
-        let (body_share, share_of) = body_share(args, aim, &source, &world, &base, duration)?;
+        let (body_share, share_of) = match (aim, &source) {
+            (Aim::Graded(_), LoadedSource::Dynamics) => {
+                let gait = body_share_of(args, &robot, &defaults, &base)?;
+                let share = pricer::body_share(&world, &gait, duration).map_err(Failure::input)?;
+                (share, Some(gait.name))
+            }
+            _ if args.body_share_of.is_some() => {
+                return Err(Failure::Input(anyhow!(
+                    "--body-share-of goes with --source dynamics only: nothing else knows what carries the weight"
+                )));
+            }
+            _ => (1.0, None),
+        };
         let share = match args.per {
             None | Some(PerName::Phase) => Share::Phase,
             Some(PerName::Metre) => {
@@ -184,11 +197,7 @@ impl Pricing {
             "from": self.base.name,
             "mapping": self.base.mapping.name(),
             "arm": self.base.arm.name(),
-            "robot": {
-                "name": self.robot.robot().name,
-                "folder": self.robot.files().folder,
-                "sha256": self.robot.files().hash(),
-            },
+            "robot": crate::robot::said(&self.robot),
         })
     }
 }
@@ -274,14 +283,19 @@ fn aim(args: &PricingArgs) -> Result<Aim, Failure> {
 }
 
 /// The gait of --from, or a default of the kind of the gait to price.
-fn base(args: &PricingArgs, priced: Option<&Gait>) -> Result<Gait, Failure> {
+fn base(
+    args: &PricingArgs,
+    gaits: &Gaits,
+    defaults: &PullDefaults,
+    priced: Option<&Gait>,
+) -> Result<Gait, Failure> {
     if let Some(name) = &args.from {
-        return crate::gait::find(name);
+        return crate::gait::find(gaits, name);
     }
-    let nominal = crate::gait::find(FROM)?;
+    let usual = crate::gait::find(gaits, &defaults.from)?;
     let kind = |gait: &Gait| (gait.mapping, gait.arm);
-    let other = priced.filter(|gait| kind(gait) != kind(&nominal));
-    Ok(other.cloned().unwrap_or(nominal))
+    let other = priced.filter(|gait| kind(gait) != kind(&usual));
+    Ok(other.cloned().unwrap_or(usual))
 }
 
 fn source(given: &str) -> Result<LoadedSource, Failure> {
@@ -329,28 +343,18 @@ fn clearance(
     })
 }
 
-/// The largest share of the weight on trunk and legs, and the gait it is from.
-fn body_share(
+/// The gait whose share of the weight on trunk and legs is the limit.
+fn body_share_of(
     args: &PricingArgs,
-    aim: Aim,
-    source: &LoadedSource,
-    world: &World,
+    robot: &LoadedRobot,
+    defaults: &PullDefaults,
     base: &Gait,
-    duration: PhaseDuration,
-) -> Result<(f64, Option<String>), Failure> {
-    if !matches!((aim, source), (Aim::Graded(_), LoadedSource::Dynamics)) {
-        return match args.body_share_of {
-            None => Ok((1.0, None)),
-            Some(_) => Err(Failure::Input(anyhow!(
-                "--body-share-of goes with --source dynamics only: nothing else knows what carries the weight"
-            ))),
-        };
+) -> Result<Gait, Failure> {
+    let gaits = &robot.files().gaits;
+    if let Some(name) = &args.body_share_of {
+        return crate::gait::find(gaits, name);
     }
-    let gait = match &args.body_share_of {
-        Some(name) => crate::gait::find(name)?,
-        None if world.robot().chain.published.is_some() => crate::gait::find(SHARE_OF)?,
-        None => base.clone(),
-    };
-    let share = pricer::body_share(world, &gait, duration).map_err(Failure::input)?;
-    Ok((share, Some(gait.name)))
+    let usual = crate::gait::find(gaits, &defaults.body_share_of)?;
+    let followed = crate::gait::can_follow(robot.robot(), &usual);
+    Ok(if followed { usual } else { base.clone() })
 }

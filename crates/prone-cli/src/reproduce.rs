@@ -9,11 +9,12 @@ use serde_json::json;
 
 use prone::gait::cycle::{CheckedCycle, CycleError, TimeScale};
 use prone::robot::Robot;
+use prone_files::gaits::Gaits;
 use prone_files::shipped;
 use prone_sim::crawl::CrawlError;
 use prone_sim::{Regime, World};
 use prone_study::output;
-use prone_study::published::TABLE_CRAWLS;
+use prone_study::published;
 use prone_study::reproduce::{self, ReproduceError, Reproduction, Study};
 use prone_study::run_info::Program;
 use prone_study::summary::Summary;
@@ -24,17 +25,14 @@ use crate::args::ReproduceArgs;
 use crate::progress::Progress;
 use crate::{Failure, interrupt};
 
-/// Cycle and scene of the published experiments on the robot.
-const CYCLE: &str = "thesis-nominal";
-const SCENE: &str = "table";
-
-/// The gaits of the published study.
-const GAITS: [&str; 2] = ["nominal", "optimal"];
-
 pub(crate) fn run(args: &ReproduceArgs) -> Result<(), Failure> {
-    let gaits = GAITS.into_iter().map(crate::gait::find);
-    let plan =
-        Plan::new(gaits.collect::<Result<_, _>>()?, &args.durations).map_err(Failure::input)?;
+    // Those that ship, also for a robot with gaits of its own of these names.
+    let gaits = published::GAITS.map(|name| crate::gait::find(&Gaits::None, name));
+    let plan = Plan::new(
+        gaits.into_iter().collect::<Result<_, _>>()?,
+        &args.durations,
+    )
+    .map_err(Failure::input)?;
     let robot = crate::robot::load(args.robot.as_deref())?;
     let world = World::new(&robot, Regime::TORQUE_STUDY).map_err(Failure::input)?;
     plan.check(&world).map_err(Failure::input)?;
@@ -57,7 +55,7 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<(), Failure> {
         gait_files: &gait_files,
         table: table.as_ref(),
     };
-    let crawls = table.as_ref().map_or(0, |_| TABLE_CRAWLS.len());
+    let crawls = table.as_ref().map_or(0, |_| published::TABLE_CRAWLS.len());
     let progress = Progress::new(plan.phases() + crawls)?;
     let started = Instant::now();
     let reproduction = pool.install(|| reproduce::run(&study, &program, &progress));
@@ -82,8 +80,10 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<(), Failure> {
 
 /// The crawl under the table, for a robot that has the joints which its cycle names.
 fn table_study(robot: &Robot) -> Result<Option<TableStudy>, Failure> {
-    let gait = crate::gait::find_cycle(CYCLE)?;
-    let Some((scene, text)) = shipped::scene(SCENE).zip(shipped::scene_text(SCENE)) else {
+    let gait = crate::gait::find_cycle(&Gaits::None, published::TABLE_CYCLE)?;
+    let Some((scene, text)) =
+        shipped::scene(published::TABLE_SCENE).zip(shipped::scene_text(published::TABLE_SCENE))
+    else {
         return Ok(None);
     };
     let scene = scene.map_err(Failure::input)?;
@@ -100,12 +100,9 @@ fn table_study(robot: &Robot) -> Result<Option<TableStudy>, Failure> {
 
 /// Path and text of the gaits' files, by name.
 fn gait_files() -> BTreeMap<String, (String, String)> {
-    let files = GAITS.into_iter().filter_map(|name| {
-        let text = shipped::gait_text(name)?;
-        Some((
-            name.to_owned(),
-            (format!("robots/nao/gaits/{name}.toml"), text.to_owned()),
-        ))
+    let files = published::GAITS.into_iter().filter_map(|name| {
+        let gait = shipped::gait_file(name)?;
+        Some((name.to_owned(), (gait.file, gait.text.into_owned())))
     });
     files.collect()
 }
@@ -144,7 +141,10 @@ fn print(summary: &Summary, out: &mut impl std::io::Write) -> std::io::Result<()
     writeln!(
         out,
         "{:>8}{:>18}{:>18}{:>18}",
-        "duration", "nominal", "optimal", "ratio"
+        "duration",
+        published::NOMINAL,
+        published::OPTIMAL,
+        "ratio"
     )?;
     for row in &summary.ratios {
         let cell = |gait: &str| {
@@ -160,8 +160,8 @@ fn print(summary: &Summary, out: &mut impl std::io::Write) -> std::io::Result<()
             out,
             "{:>6} s{:>18}{:>18}{:>18}",
             row.duration_s,
-            cell("nominal"),
-            cell("optimal"),
+            cell(published::NOMINAL),
+            cell(published::OPTIMAL),
             beside(row.ours, row.published)
         )?;
     }

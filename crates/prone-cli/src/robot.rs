@@ -3,6 +3,8 @@
 use std::io::Write as _;
 use std::path::Path;
 
+use serde_json::{Value, json};
+
 use prone_files::shipped;
 use prone_sim::{LoadedRobot, Regime, RobotFiles, World};
 use prone_study::robot_sheet::{self, ChainSheet, RobotSheet};
@@ -10,13 +12,26 @@ use prone_study::robot_sheet::{self, ChainSheet, RobotSheet};
 use crate::Failure;
 use crate::args::RobotCheckArgs;
 
-/// The robot of a folder, or the one that ships.
-pub(crate) fn load(folder: Option<&Path>) -> Result<LoadedRobot, Failure> {
-    let files = match folder {
+/// The robot of a folder or a name, or the one that ships.
+pub(crate) fn load(name: Option<&Path>) -> Result<LoadedRobot, Failure> {
+    let files = match name {
         None => RobotFiles::shipped(&shipped::NAO),
-        Some(folder) => RobotFiles::read(folder).map_err(Failure::input)?,
+        Some(name) => RobotFiles::named(name).map_err(Failure::input)?,
     };
     LoadedRobot::load(files).map_err(Failure::input)
+}
+
+/// What a search says of its robot.
+pub(crate) fn said(robot: &LoadedRobot) -> Value {
+    let files = robot.files();
+    let member = files.member.as_ref();
+    json!({
+        "name": robot.robot().name,
+        "family": member.map(|member| &member.family),
+        "version": member.map(|member| &member.version),
+        "folder": files.folder,
+        "sha256": files.hash(),
+    })
 }
 
 pub(crate) fn check(args: &RobotCheckArgs) -> Result<(), Failure> {

@@ -193,7 +193,8 @@ fn a_robot_that_is_not_the_run_s_is_refused_in_every_format() {
     let other = home.path().join("robot");
     fs::create_dir(&other).unwrap();
     let nao = prone_files::shipped::NAO;
-    let heavier = format!("{}\n# another\n", nao.toml);
+    let alone = nao.toml.replacen("family = \"nao\"\n", "", 1);
+    let heavier = format!("{alone}\n# another\n");
     fs::write(other.join("robot.toml"), heavier).unwrap();
     fs::write(other.join("robot.xml"), nao.mjcf).unwrap();
     let nowhere = home.path().join("nowhere");

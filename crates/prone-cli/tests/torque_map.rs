@@ -165,13 +165,14 @@ fn what_cannot_be_built_is_refused_before_anything_is_made() {
     let home = tempfile::tempdir().unwrap();
     let at = |name: &str| home.path().join(name);
     fs::create_dir(at("robot")).unwrap();
-    let from = NAO.toml.find("[chain.published]").unwrap();
-    let to = from + NAO.toml[from + 1..].find("\n[").unwrap() + 1;
-    let unpublished = [&NAO.toml[..from], &NAO.toml[to..]].concat();
+    let alone = NAO.toml.replacen("family = \"nao\"\n", "", 1);
+    let from = alone.find("[chain.published]").unwrap();
+    let to = from + alone[from + 1..].find("\n[").unwrap() + 1;
+    let unpublished = [&alone[..from], &alone[to..]].concat();
     fs::write(at("robot/robot.toml"), unpublished).unwrap();
     fs::write(at("robot/robot.xml"), NAO.mjcf).unwrap();
     fs::create_dir(at("nao")).unwrap();
-    fs::write(at("nao/robot.toml"), NAO.toml).unwrap();
+    fs::write(at("nao/robot.toml"), &alone).unwrap();
     fs::write(at("nao/robot.xml"), NAO.mjcf).unwrap();
     symlink("nowhere", at("link")).unwrap();
     let (robot, nao) = (at("robot"), at("nao"));

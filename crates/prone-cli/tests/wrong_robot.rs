@@ -5,11 +5,13 @@ use std::process::Command;
 
 use prone_files::shipped::NAO;
 
-/// `prone robot check` on the shipped robot with one change in each of its files.
+/// `prone robot check` on the shipped robot, without its family, with one change in each of its
+/// files.
 fn check(toml: (&str, &str), mjcf: (&str, &str)) -> String {
     let folder = tempfile::tempdir().unwrap();
+    let alone = NAO.toml.replacen("family = \"nao\"\n", "", 1);
     for (file, text, (from, to)) in [
-        ("robot.toml", NAO.toml, toml),
+        ("robot.toml", alone.as_str(), toml),
         ("robot.xml", NAO.mjcf, mjcf),
     ] {
         assert!(text.contains(from), "{from} is not in {file}");

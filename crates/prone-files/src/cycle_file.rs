@@ -367,7 +367,7 @@ mod tests {
 
     #[test]
     fn parts_have_their_lines() {
-        let text = shipped::cycle_text("low-175").unwrap();
+        let text = &shipped::gait_file("low-175").unwrap().text;
         for (place, line) in [
             ("pull", "[pull]"),
             ("steering", "[steering]"),
@@ -383,7 +383,7 @@ mod tests {
 
     #[test]
     fn errors_name_line_value_and_bound() {
-        let good = shipped::cycle_text("low-175").unwrap();
+        let good = &shipped::gait_file("low-175").unwrap().text;
         for (from, to, message) in [
             (
                 "duration_s = 1.0",

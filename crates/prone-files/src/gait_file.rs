@@ -27,6 +27,7 @@ use prone::mapping::{ArmMode, MappingVariant};
 
 use crate::curve_table::{self, CurveTable};
 use crate::error::{FileError, Source};
+use crate::plain_name::is_plain;
 
 /// Reads a gait from the text of a gait file; `file` is the name that errors carry.
 ///
@@ -56,9 +57,8 @@ pub fn parse(file: &str, text: &str) -> Result<Gait, FileError> {
 
 /// Whether a name may become part of file names.
 pub(crate) fn check_name(source: Source<'_>, name: &Spanned<String>) -> Result<(), FileError> {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_".contains(c);
     let text = name.get_ref();
-    if text.is_empty() || !text.chars().all(plain) {
+    if !is_plain(text) {
         return Err(source.error(
             name.span(),
             format!("a gait's name is made of letters, digits, - and _ (it becomes part of file names), not {text:?}"),

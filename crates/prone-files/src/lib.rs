@@ -1,4 +1,4 @@
-//! The text formats of prone: `robot.toml`, gait files and scene files.
+//! The text formats of prone: `robot.toml`, `family.toml`, gait files and scene files.
 //!
 //! At this border names carry units (`span_mm`, `constant_deg`) and numbers are converted once;
 //! behind it everything is SI and radians. Every error names file, line and column. What ships
@@ -6,10 +6,15 @@
 
 mod curve_table;
 pub mod cycle_file;
+pub mod defaults;
 mod error;
 mod exactly;
+pub mod family_file;
 pub mod gait_file;
+pub mod gaits;
+mod plain_name;
 pub mod robot_file;
+pub mod robot_folder;
 pub mod scene_file;
 pub mod shipped;
 pub mod text_file;

@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
+use crate::defaults::DefaultsTable;
 use crate::error::{FileError, Source};
 use crate::exactly::{Exactly, exactly};
 
@@ -28,6 +29,8 @@ pub type Number = Placed<f64>;
 pub struct RobotFile {
     /// The maker's name of the model.
     pub name: String,
+    /// The family that the robot is a version of.
+    pub family: Option<Name>,
     /// The MJCF file beside this one.
     pub model: Name,
     /// How high the robot stands, mm.
@@ -54,6 +57,9 @@ pub struct RobotFile {
     pub search: SearchTable,
     /// What pictures have to know of the robot.
     pub pictures: PicturesTable,
+    /// Which gaits the program uses.
+    #[serde(default)]
+    pub defaults: DefaultsTable,
 }
 
 /// `[chain]`
@@ -255,7 +261,8 @@ impl RobotFile {
     /// [`FileError`] with line and column. Of a section or key that is missing it says where they
     /// are described: an older robot lacks those that came since.
     pub fn parse(file: &str, text: &str) -> Result<Self, FileError> {
-        Source { file, text }.parse().map_err(|error| {
+        let source = Source { file, text };
+        let robot: Self = source.parse().map_err(|error| {
             if !error.message.starts_with("missing field") {
                 return error;
             }
@@ -264,7 +271,9 @@ impl RobotFile {
                 error.message
             );
             FileError { message, ..error }
-        })
+        })?;
+        robot.defaults.check(source)?;
+        Ok(robot)
     }
 
     /// An error at a name of this file; `file` and `text` as given to [`RobotFile::parse`].

@@ -44,6 +44,7 @@ mod tables;
 use prone::scene::{Item, Quantity, Scene, SceneError};
 
 use crate::error::{FileError, Source};
+use crate::plain_name::is_plain;
 use tables::SceneFile;
 
 /// Reads a scene from the text of a scene file; `file` is the name that errors carry.
@@ -54,8 +55,7 @@ pub fn parse(file: &str, text: &str) -> Result<Scene, FileError> {
     let source = Source { file, text };
     let table: SceneFile = source.parse()?;
     let name = table.name.get_ref();
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_".contains(c);
-    if name.is_empty() || !name.chars().all(plain) {
+    if !is_plain(name) {
         return Err(source.error(
             table.name.span(),
             format!("a scene's name is made of letters, digits, - and _ (it becomes part of file names), not {name:?}"),

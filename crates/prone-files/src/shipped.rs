@@ -1,14 +1,37 @@
-//! What ships inside the program: one robot, the published gaits, gaits that were found, and scenes.
+//! What ships inside the program: families of robots with their versions and gaits, and scenes.
 
 use prone::gait::Gait;
 use prone::gait::cycle::Cycle;
 use prone::scene::Scene;
 
+use crate::defaults::Defaults;
+use crate::error::Source;
+use crate::family_file::FamilyFile;
+use crate::gaits::GaitText;
 use crate::{FileError, cycle_file, gait_file, scene_file};
 
+/// A family of robots, embedded.
+#[derive(Debug, PartialEq, Eq)]
+pub struct FamilySource {
+    /// Its name, also that of its folder.
+    pub name: &'static str,
+    /// Where it comes from, as shown to a user.
+    pub folder: &'static str,
+    /// `family.toml`.
+    pub toml: &'static str,
+    /// Its robots.
+    pub versions: &'static [RobotSource],
+    /// Names and texts of its gaits that are a pull alone.
+    pulls: &'static [(&'static str, &'static str)],
+    /// Names and texts of its gaits that are a whole cycle.
+    cycles: &'static [(&'static str, &'static str)],
+}
+
 /// A robot's two files, embedded.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RobotSource {
+    /// Which version of its family it is: the name of its folder.
+    pub version: &'static str,
     /// Where they come from, as shown to a user.
     pub folder: &'static str,
     /// `robot.toml`.
@@ -17,113 +40,141 @@ pub struct RobotSource {
     pub mjcf: &'static str,
 }
 
-/// The NAO H25 V4.
+/// The NAO H25 V4, the robot where none is named.
 pub const NAO: RobotSource = RobotSource {
+    version: "v4",
     folder: "robots/nao/v4",
     toml: include_str!("../../../robots/nao/v4/robot.toml"),
     mjcf: include_str!("../../../robots/nao/v4/robot.xml"),
 };
 
-/// Names and texts of the gaits that ship with the program: the published ones, then the best that
-/// was found for each objective.
-const GAITS: [(&str, &str); 8] = [
-    (
-        "nominal",
-        include_str!("../../../robots/nao/gaits/nominal.toml"),
-    ),
-    (
-        "optimal",
-        include_str!("../../../robots/nao/gaits/optimal.toml"),
-    ),
-    (
-        "least-published",
-        include_str!("../../../robots/nao/gaits/least-published.toml"),
-    ),
-    (
-        "least-torque",
-        include_str!("../../../robots/nao/gaits/least-torque.toml"),
-    ),
-    (
-        "least-torque-clamped",
-        include_str!("../../../robots/nao/gaits/least-torque-clamped.toml"),
-    ),
-    (
-        "least-torque-spline",
-        include_str!("../../../robots/nao/gaits/least-torque-spline.toml"),
-    ),
-    (
-        "least-weighted-torque",
-        include_str!("../../../robots/nao/gaits/least-weighted-torque.toml"),
-    ),
-    (
-        "least-peak",
-        include_str!("../../../robots/nao/gaits/least-peak.toml"),
-    ),
+/// The families that ship; what the first says goes for robots that say nothing.
+static FAMILIES: [FamilySource; 1] = [FamilySource {
+    name: "nao",
+    folder: "robots/nao",
+    toml: include_str!("../../../robots/nao/family.toml"),
+    versions: &[NAO],
+    pulls: &NAO_PULLS,
+    cycles: &NAO_CYCLES,
+}];
+
+/// Name and text of a gait of the NAO.
+macro_rules! of_nao {
+    ($name:literal) => {
+        (
+            $name,
+            include_str!(concat!("../../../robots/nao/gaits/", $name, ".toml")),
+        )
+    };
+}
+
+/// The published pulls, then the best that was found for each objective.
+static NAO_PULLS: [(&str, &str); 8] = [
+    of_nao!("nominal"),
+    of_nao!("optimal"),
+    of_nao!("least-published"),
+    of_nao!("least-torque"),
+    of_nao!("least-torque-clamped"),
+    of_nao!("least-torque-spline"),
+    of_nao!("least-weighted-torque"),
+    of_nao!("least-peak"),
 ];
 
-/// Names and texts of the cycles that ship with the program: those with the published postures, then
-/// those that keep low and can be steered, then those that come farthest under a ceiling,
-/// and those of little motor heat and of least torque asked of the shoulders.
-const CYCLES: [(&str, &str); 12] = [
-    (
-        "thesis-nominal",
-        include_str!("../../../robots/nao/gaits/thesis-nominal.toml"),
-    ),
-    (
-        "thesis-optimal",
-        include_str!("../../../robots/nao/gaits/thesis-optimal.toml"),
-    ),
-    (
-        "low-200",
-        include_str!("../../../robots/nao/gaits/low-200.toml"),
-    ),
-    (
-        "low-175",
-        include_str!("../../../robots/nao/gaits/low-175.toml"),
-    ),
-    (
-        "low-165",
-        include_str!("../../../robots/nao/gaits/low-165.toml"),
-    ),
-    (
-        "hip-10",
-        include_str!("../../../robots/nao/gaits/hip-10.toml"),
-    ),
-    (
-        "far-200",
-        include_str!("../../../robots/nao/gaits/far-200.toml"),
-    ),
-    (
-        "far-183",
-        include_str!("../../../robots/nao/gaits/far-183.toml"),
-    ),
-    (
-        "far-165",
-        include_str!("../../../robots/nao/gaits/far-165.toml"),
-    ),
-    (
-        "least-heat",
-        include_str!("../../../robots/nao/gaits/least-heat.toml"),
-    ),
-    (
-        "efficient",
-        include_str!("../../../robots/nao/gaits/efficient.toml"),
-    ),
-    (
-        "gentle",
-        include_str!("../../../robots/nao/gaits/gentle.toml"),
-    ),
+/// The cycles with the published postures, then those that keep low and can be steered, then those
+/// that come farthest under a ceiling, and those of little motor heat and of least torque asked of
+/// the shoulders.
+static NAO_CYCLES: [(&str, &str); 12] = [
+    of_nao!("thesis-nominal"),
+    of_nao!("thesis-optimal"),
+    of_nao!("low-200"),
+    of_nao!("low-175"),
+    of_nao!("low-165"),
+    of_nao!("hip-10"),
+    of_nao!("far-200"),
+    of_nao!("far-183"),
+    of_nao!("far-165"),
+    of_nao!("least-heat"),
+    of_nao!("efficient"),
+    of_nao!("gentle"),
 ];
+
+impl FamilySource {
+    /// The file of its gait of this name.
+    pub fn gait_file(&self, name: &str) -> Option<GaitText> {
+        let mut gaits = self.pulls.iter().chain(self.cycles);
+        let (_, text) = gaits.find(|(known, _)| *known == name)?;
+        Some(GaitText {
+            file: format!("{}/gaits/{name}.toml", self.folder),
+            text: (*text).into(),
+            read: None,
+        })
+    }
+
+    /// Names of its gaits that are a pull alone.
+    pub fn pull_names(&self) -> impl Iterator<Item = &'static str> + use<> {
+        self.pulls.iter().map(|(name, _)| *name)
+    }
+
+    /// Names of its gaits that are a whole cycle.
+    pub fn cycle_names(&self) -> impl Iterator<Item = &'static str> + use<> {
+        self.cycles.iter().map(|(name, _)| *name)
+    }
+
+    /// Name of its `family.toml`, as shown to a user.
+    pub(crate) fn toml_name(&self) -> String {
+        format!("{}/family.toml", self.folder)
+    }
+}
+
+/// The families that ship.
+pub fn families() -> impl Iterator<Item = &'static FamilySource> {
+    FAMILIES.iter()
+}
+
+/// The family of a robot that ships.
+pub(crate) fn family_of(robot: &RobotSource) -> Option<&'static FamilySource> {
+    families().find(|family| family.versions.contains(robot))
+}
+
+/// The shipped robot of a name: `nao` for the default version of a family, `nao/v4` for another one;
+/// `None` for any other name.
+///
+/// # Errors
+/// [`FileError`] if the embedded family does not parse, which a test excludes.
+pub fn robot(name: &str) -> Option<Result<&'static RobotSource, FileError>> {
+    let (family, version) = match name.split_once('/') {
+        None => (name, None),
+        Some((family, version)) => (family, Some(version)),
+    };
+    let family = families().find(|known| known.name == family)?;
+    let version = match version {
+        Some(version) => version.to_owned(),
+        None => match FamilyFile::parse(&family.toml_name(), family.toml) {
+            Ok(file) => file.default.into_inner(),
+            Err(error) => return Some(Err(error)),
+        },
+    };
+    let mut versions = family.versions.iter();
+    versions.find(|robot| robot.version == version).map(Ok)
+}
+
+/// The gaits of robots that do not say which.
+pub(crate) fn defaults() -> Result<Defaults, FileError> {
+    let [family, ..] = &FAMILIES;
+    let (file, text) = (&family.toml_name(), family.toml);
+    FamilyFile::parse(file, text)?
+        .defaults
+        .whole(Source { file, text })
+}
+
+/// The file of a shipped gait, of the first family that has one of this name.
+pub fn gait_file(name: &str) -> Option<GaitText> {
+    families().find_map(|family| family.gait_file(name))
+}
 
 /// The names that [`cycle`] knows.
 pub fn cycle_names() -> impl Iterator<Item = &'static str> {
-    CYCLES.iter().map(|(name, _)| *name)
-}
-
-/// The text of a shipped cycle's file.
-pub fn cycle_text(name: &str) -> Option<&'static str> {
-    let (_, text) = CYCLES.iter().find(|(known, _)| *known == name)?;
-    Some(text)
+    families().flat_map(FamilySource::cycle_names)
 }
 
 /// A shipped cycle by name, `None` for any other name.
@@ -131,26 +182,22 @@ pub fn cycle_text(name: &str) -> Option<&'static str> {
 /// # Errors
 /// [`FileError`] if the embedded text does not parse, which a test excludes.
 pub fn cycle(name: &str) -> Option<Result<Cycle, FileError>> {
-    cycle_text(name).map(|text| cycle_file::parse(&format!("robots/nao/gaits/{name}.toml"), text))
+    let gait = gait_file(name).filter(GaitText::is_cycle)?;
+    Some(cycle_file::parse(&gait.file, &gait.text))
 }
 
 /// The names that [`gait`] knows.
 pub fn gait_names() -> impl Iterator<Item = &'static str> {
-    GAITS.iter().map(|(name, _)| *name)
+    families().flat_map(FamilySource::pull_names)
 }
 
-/// The text of a shipped gait's file.
-pub fn gait_text(name: &str) -> Option<&'static str> {
-    let (_, text) = GAITS.iter().find(|(known, _)| *known == name)?;
-    Some(text)
-}
-
-/// A shipped gait by name, `None` for any other name.
+/// A shipped gait that is a pull alone by name, `None` for any other name.
 ///
 /// # Errors
 /// [`FileError`] if the embedded text does not parse, which a test excludes.
 pub fn gait(name: &str) -> Option<Result<Gait, FileError>> {
-    gait_text(name).map(|text| gait_file::parse(&format!("robots/nao/gaits/{name}.toml"), text))
+    let gait = gait_file(name).filter(|gait| !gait.is_cycle())?;
+    Some(gait_file::parse(&gait.file, &gait.text))
 }
 
 /// Names and texts of the scenes that ship with the program.
@@ -185,6 +232,11 @@ pub fn scene(name: &str) -> Option<Result<Scene, FileError>> {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+    use std::path::Path;
+
+    use crate::robot_folder::RobotFiles;
+
     use super::*;
 
     #[test]
@@ -210,8 +262,84 @@ mod tests {
     fn shipped_gaits_parse_under_their_own_names() {
         for name in gait_names() {
             assert_eq!(gait(name).unwrap().unwrap().name, name);
+            assert!(cycle(name).is_none());
+        }
+        for name in cycle_names() {
+            assert_eq!(cycle(name).unwrap().unwrap().pull.name, name);
+            assert!(gait(name).is_none());
         }
         assert!(gait("gallop").is_none());
+        assert!(cycle("gallop").is_none());
+    }
+
+    /// Names of the entries of a folder of the repository, without `.toml`, sorted.
+    fn entries(folder: &str) -> Vec<String> {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("../..")
+            .join(folder);
+        let mut names: Vec<String> = fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .map(|name| name.trim_end_matches(".toml").to_owned())
+            .collect();
+        names.sort_unstable();
+        names
+    }
+
+    fn sorted<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+        let mut names: Vec<&str> = names.collect();
+        names.sort_unstable();
+        names
+    }
+
+    #[test]
+    fn all_robots_and_gaits_of_the_repository_ship() {
+        assert_eq!(
+            entries("robots"),
+            sorted(families().map(|family| family.name))
+        );
+        for family in families() {
+            assert_eq!(family.folder, format!("robots/{}", family.name));
+            let versions = family.versions.iter().map(|robot| robot.version);
+            let inside = versions.chain(["family", "gaits"]);
+            assert_eq!(entries(family.folder), sorted(inside));
+            let gaits = family.pull_names().chain(family.cycle_names());
+            assert_eq!(entries(&format!("{}/gaits", family.folder)), sorted(gaits));
+        }
+        assert_eq!(entries("scenes"), sorted(scene_names()));
+    }
+
+    #[test]
+    fn shipped_robots_are_what_their_folders_hold() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        for family in families() {
+            for version in family.versions {
+                let shipped = RobotFiles::shipped(version);
+                let read = RobotFiles::read(&root.join(version.folder)).unwrap();
+                assert_eq!(shipped.hash(), read.hash());
+                assert_eq!(shipped.defaults().unwrap(), read.defaults().unwrap());
+                let name = |files: &RobotFiles| {
+                    let member = files.member.as_ref().unwrap();
+                    (member.family.clone(), member.version.clone())
+                };
+                assert_eq!(name(&shipped), name(&read));
+            }
+            let default = robot(family.name).unwrap().unwrap();
+            let read = RobotFiles::read(&root.join(family.folder)).unwrap();
+            assert_eq!(RobotFiles::shipped(default).hash(), read.hash());
+        }
+        assert_eq!(robot("nao").unwrap().unwrap(), &NAO);
+        assert!(robot("nao/v0").is_none());
+        assert!(robot("pepper").is_none());
+    }
+
+    #[test]
+    fn every_shipped_cycle_is_tried_under_a_ceiling() {
+        for family in families() {
+            let defaults = RobotFiles::shipped(&family.versions[0]).defaults().unwrap();
+            let under = defaults.cycle.under;
+            assert!(under.iter().map(String::as_str).eq(family.cycle_names()));
+        }
     }
 
     #[test]

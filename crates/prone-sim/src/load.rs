@@ -7,7 +7,6 @@
 
 mod bounds;
 mod control;
-mod files;
 mod foreign;
 mod imu;
 mod limbs;
@@ -17,10 +16,9 @@ mod model;
 mod problem;
 mod tables;
 
-pub use files::RobotFiles;
 pub use problem::ModelProblem;
+pub use prone_files::robot_folder::RobotFiles;
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use mujoco_rs::prelude::*;
@@ -28,6 +26,7 @@ use mujoco_rs::prelude::*;
 use prone::robot::Robot;
 use prone_files::FileError;
 use prone_files::robot_file::RobotFile;
+use prone_files::robot_folder;
 
 use crate::engine_log::{self, one_line};
 
@@ -41,14 +40,6 @@ pub struct LoadedRobot {
 /// Why a robot cannot be loaded.
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
-    /// A file cannot be read.
-    #[error("cannot read {}: {source}", path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: std::io::Error,
-    },
     /// `robot.toml` is malformed, or names what the model lacks.
     #[error(transparent)]
     Toml(#[from] FileError),
@@ -82,7 +73,7 @@ impl LoadedRobot {
         engine_log::silence();
         let toml_name = files.toml_name();
         let table = RobotFile::parse(&toml_name, &files.toml)?;
-        files::check_model_name(&toml_name, &files.toml, &table.model)?;
+        robot_folder::check_model_name(&toml_name, &files.toml, &table.model)?;
         let mjcf_name = format!("{}/{}", files.folder, table.model.get_ref());
         markup::check(&mjcf_name, &files.mjcf).map_err(LoadError::Markup)?;
 

@@ -5,8 +5,9 @@ mod changed;
 use std::fs;
 
 use changed::{SAME, changed};
+use prone_files::robot_folder::RobotFolderError;
 use prone_files::shipped::NAO;
-use prone_sim::{LoadError, LoadedRobot, RobotFiles};
+use prone_sim::{LoadedRobot, RobotFiles};
 
 /// The message for one change in `robot.xml`.
 fn model(from: &str, to: &str) -> String {
@@ -134,12 +135,12 @@ const MODELS: &[Refusal] = &[
     (
         "<gyro name=\"Gyrometer\" site=\"imu\"/>",
         "",
-        "nao/robot.toml:350:8: nao/robot.xml has no gyro at site imu",
+        "nao/robot.toml:351:8: nao/robot.xml has no gyro at site imu",
     ),
     (
         "<accelerometer name=\"Accelerometer\" site=\"imu\"/>",
         "<accelerometer name=\"Accelerometer\" site=\"LToe\"/>",
-        "nao/robot.toml:350:8: nao/robot.xml has no accelerometer at site imu",
+        "nao/robot.toml:351:8: nao/robot.xml has no accelerometer at site imu",
     ),
     (
         "<mujoco model",
@@ -194,7 +195,7 @@ const MODELS: &[Refusal] = &[
     (
         "body name=\"RTibia\" pos=\"0 0 -.1\"",
         "body name=\"RTibia\" pos=\"0 0 -.11\"",
-        "nao/robot.toml:25:7: the right toe leaves the sagittal chain by 10.000 mm when the joints move: its joints and sites are not those of one limb, or left and right differ",
+        "nao/robot.toml:26:7: the right toe leaves the sagittal chain by 10.000 mm when the joints move: its joints and sites are not those of one limb, or left and right differ",
     ),
 ];
 
@@ -209,182 +210,182 @@ const TABLES: &[Refusal] = &[
     (
         "model = \"robot.xml\"",
         "model = \"../robot.xml\"",
-        "nao/robot.toml:4:9: model must be the name of a file beside this one, not \"../robot.xml\"",
+        "nao/robot.toml:5:9: model must be the name of a file beside this one, not \"../robot.xml\"",
     ),
     (
         "model = \"robot.xml\"",
         "model = \"/etc/passwd\"",
-        "nao/robot.toml:4:9: model must be the name of a file beside this one, not \"/etc/passwd\"",
+        "nao/robot.toml:5:9: model must be the name of a file beside this one, not \"/etc/passwd\"",
     ),
     (
         "model = \"robot.xml\"",
         "model = \"..\"",
-        "nao/robot.toml:4:9: model must be the name of a file beside this one, not \"..\"",
+        "nao/robot.toml:5:9: model must be the name of a file beside this one, not \"..\"",
     ),
     (
         "model = \"robot.xml\"",
         "model = \"\"",
-        "nao/robot.toml:4:9: model must be the name of a file beside this one, not \"\"",
+        "nao/robot.toml:5:9: model must be the name of a file beside this one, not \"\"",
     ),
     (
         "model = \"robot.xml\"",
         "model = \"a\\u0000b\"",
-        "nao/robot.toml:4:9: model must be the name of a file beside this one, not \"a\\0b\"",
+        "nao/robot.toml:5:9: model must be the name of a file beside this one, not \"a\\0b\"",
     ),
     (
         "knee = \"LKneePitch\"\nhip = \"LHipPitch\"",
         "knee = \"LHipPitch\"\nhip = \"LKneePitch\"",
-        "nao/robot.toml:16:8: knee LHipPitch does not hang on hip LKneePitch",
+        "nao/robot.toml:17:8: knee LHipPitch does not hang on hip LKneePitch",
     ),
     (
         "knee = \"LKneePitch\"",
         "knee = \"LHipPitch\"",
-        "nao/robot.toml:17:7: joint LHipPitch is the left knee already",
+        "nao/robot.toml:18:7: joint LHipPitch is the left knee already",
     ),
     (
         "knee = \"RKneePitch\"",
         "knee = \"LKneePitch\"",
-        "nao/robot.toml:27:8: joint LKneePitch is the left knee already",
+        "nao/robot.toml:28:8: joint LKneePitch is the left knee already",
     ),
     (
         "knee = \"LKneePitch\"\nhip = \"LHipPitch\"",
         "knee = \"LKneePitch\"\nhip = \"HeadPitch\"",
-        "nao/robot.toml:16:8: knee LKneePitch does not hang on hip HeadPitch",
+        "nao/robot.toml:17:8: knee LKneePitch does not hang on hip HeadPitch",
     ),
     (
         "shoulder = \"LShoulderPitch\"",
         "shoulder = \"HeadPitch\"",
-        "nao/robot.toml:19:17: shoulder_roll LShoulderRoll does not hang on shoulder HeadPitch",
+        "nao/robot.toml:20:17: shoulder_roll LShoulderRoll does not hang on shoulder HeadPitch",
     ),
     (
         "toe = \"LToe\"",
         "toe = \"LKnee\"",
-        "nao/robot.toml:14:7: toe LKnee does not hang on ankle LAnklePitch",
+        "nao/robot.toml:15:7: toe LKnee does not hang on ankle LAnklePitch",
     ),
     (
         "toe = \"LToe\"",
         "toe = \"RToe\"",
-        "nao/robot.toml:14:7: toe RToe does not hang on ankle LAnklePitch",
+        "nao/robot.toml:15:7: toe RToe does not hang on ankle LAnklePitch",
     ),
     (
         "elbow = \"LElbow\"\n",
         "elbow = \"LShoulder\"\n",
-        "nao/robot.toml:20:9: elbow LShoulder does not hang on shoulder_roll LShoulderRoll",
+        "nao/robot.toml:21:9: elbow LShoulder does not hang on shoulder_roll LShoulderRoll",
     ),
     (
         "elbow = \"LElbow\"\n",
         "elbow = \"LHip\"\n",
-        "nao/robot.toml:20:9: elbow LHip does not hang on shoulder_roll LShoulderRoll",
+        "nao/robot.toml:21:9: elbow LHip does not hang on shoulder_roll LShoulderRoll",
     ),
     (
         "[\"LElbowYaw\", \"LElbowRoll\"]\nforearm_direction",
         "[\"LElbowRoll\", \"LElbowYaw\"]\nforearm_direction",
-        "nao/robot.toml:21:26: lower forearm joint LElbowYaw does not hang on upper forearm joint LElbowRoll",
+        "nao/robot.toml:22:26: lower forearm joint LElbowYaw does not hang on upper forearm joint LElbowRoll",
     ),
     (
         "[\"LElbowYaw\", \"LElbowRoll\"]\nforearm_direction",
         "[\"LElbowYaw\", \"LWristYaw\"]\nforearm_direction",
-        "nao/robot.toml:14:7: LWristYaw does not point the forearm: it turns about the forearm itself",
+        "nao/robot.toml:15:7: LWristYaw does not point the forearm: it turns about the forearm itself",
     ),
     (
         "[\"LElbowYaw\", \"LElbowRoll\"]\nforearm_direction",
         "[\"RElbowYaw\", \"LElbowRoll\"]\nforearm_direction",
-        "nao/robot.toml:32:12: joint RElbowYaw is the left upper forearm already",
+        "nao/robot.toml:33:12: joint RElbowYaw is the left upper forearm already",
     ),
     (
         "knee = \"LKneePitch\"",
         "knee = \"LAnkleRoll\"",
-        "nao/robot.toml:15:9: ankle LAnklePitch does not hang on knee LAnkleRoll",
+        "nao/robot.toml:16:9: ankle LAnklePitch does not hang on knee LAnkleRoll",
     ),
     (
         "standing_height_mm = 574.0",
         "standing_height_mm = 574000.0",
-        "nao/robot.toml:4:9: standing_height_mm must be at most 10000, not 574000",
+        "nao/robot.toml:5:9: standing_height_mm must be at most 10000, not 574000",
     ),
     (
         "no_load_rpm = 10700.0",
         "no_load_rpm = -1.0",
-        "nao/robot.toml:79:9: no_load_rpm must be positive and finite, not -1",
+        "nao/robot.toml:80:9: no_load_rpm must be positive and finite, not -1",
     ),
     (
         "span_mm = 430.0",
         "span_mm = 430000.0",
-        "nao/robot.toml:14:7: span_mm must be at most 10000, not 430000",
+        "nao/robot.toml:15:7: span_mm must be at most 10000, not 430000",
     ),
     (
         "span_mm = 430.0",
         "span_mm = nan",
-        "nao/robot.toml:14:7: span_mm must be positive and finite, not NaN",
+        "nao/robot.toml:15:7: span_mm must be positive and finite, not NaN",
     ),
     (
         "ankle_offset_deg = 60.0",
         "ankle_offset_deg = 6000.0",
-        "nao/robot.toml:14:7: ankle_offset_deg must be within -360..360, not 6000",
+        "nao/robot.toml:15:7: ankle_offset_deg must be within -360..360, not 6000",
     ),
     (
         "forearm_deg = [-90.0, -87.0]",
         "forearm_deg = [inf, -87.0]",
-        "nao/robot.toml:14:7: every one of forearm_deg must be within -360..360, not inf",
+        "nao/robot.toml:15:7: every one of forearm_deg must be within -360..360, not inf",
     ),
     (
         "effort_nm = 1.547",
         "effort_nm = 1547.0",
-        "nao/robot.toml:75:11: effort_nm must be at most 1000, not 1547",
+        "nao/robot.toml:76:11: effort_nm must be at most 1000, not 1547",
     ),
     (
         "speed_rad_s = 8.27",
         "speed_rad_s = inf",
-        "nao/robot.toml:75:11: speed_rad_s must be positive and finite, not inf",
+        "nao/robot.toml:76:11: speed_rad_s must be positive and finite, not inf",
     ),
     (
         "servo_gain_nms = 20.0",
         "servo_gain_nms = 2e9",
-        "nao/robot.toml:75:11: servo_gain_nms must be at most 10000, not 2000000000",
+        "nao/robot.toml:76:11: servo_gain_nms must be at most 10000, not 2000000000",
     ),
     (
         "ratio = 150.27",
         "ratio = 1e9",
-        "nao/robot.toml:79:9: ratio must be at most 100000, not 1000000000",
+        "nao/robot.toml:80:9: ratio must be at most 100000, not 1000000000",
     ),
     (
         "nominal_mnm = 6.2",
         "nominal_mnm = 6.2e9",
-        "nao/robot.toml:79:9: nominal_mnm must be at most 1000000, not 6200000000",
+        "nao/robot.toml:80:9: nominal_mnm must be at most 1000000, not 6200000000",
     ),
     (
         "LHipPitch = [-1.5359, 0.8]",
         "LHipPitch = [-88.0, 45.0]",
-        "nao/robot.toml:152:1: a range needs -2π <= lower < upper <= 2π, not -88..45",
+        "nao/robot.toml:153:1: a range needs -2π <= lower < upper <= 2π, not -88..45",
     ),
     (
         "LHipPitch = 0.4712",
         "LHipPitch = 27.0",
-        "nao/robot.toml:156:1: LHipPitch must be within -2π..2π rad, not 27",
+        "nao/robot.toml:157:1: LHipPitch must be within -2π..2π rad, not 27",
     ),
     (
         "LHipPitch = 0.4712",
         "LHipPitch = nan",
-        "nao/robot.toml:156:1: LHipPitch must be within -2π..2π rad, not NaN",
+        "nao/robot.toml:157:1: LHipPitch must be within -2π..2π rad, not NaN",
     ),
     (
         "site = \"imu\"",
         "site = \"inu\"",
-        "nao/robot.toml:350:8: site inu is not in nao/robot.xml; did you mean imu?",
+        "nao/robot.toml:351:8: site inu is not in nao/robot.xml; did you mean imu?",
     ),
     (
         "site = \"imu\"",
         "site = \"LToe\"",
-        "nao/robot.toml:350:8: site LToe is on LFoot; the inertial unit must be on the root torso",
+        "nao/robot.toml:351:8: site LToe is on LFoot; the inertial unit must be on the root torso",
     ),
     (
         "gyroscope_noise_rad_s = 0.0009",
         "gyroscope_noise_rad_s = -0.0009",
-        "nao/robot.toml:350:8: gyroscope_noise_rad_s must be within 0..10, not -0.0009",
+        "nao/robot.toml:351:8: gyroscope_noise_rad_s must be within 0..10, not -0.0009",
     ),
     (
         "accelerometer_bias_m_s2 = 0.05",
         "accelerometer_bias_m_s2 = nan",
-        "nao/robot.toml:350:8: accelerometer_bias_m_s2 must be within 0..100, not NaN",
+        "nao/robot.toml:351:8: accelerometer_bias_m_s2 must be within 0..100, not NaN",
     ),
     (
         "command_step_ms = 10.0",
@@ -484,7 +485,7 @@ fn tables_that_fit_no_robot_are_refused() {
 fn folders_that_hold_no_two_texts_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let read = || match RobotFiles::read(folder.path()) {
-        Err(LoadError::Read { path, source }) => {
+        Err(RobotFolderError::Read { path, source }) => {
             let file = path.file_name().unwrap().display().to_string();
             format!("{file}: {source}")
         }
@@ -493,7 +494,8 @@ fn folders_that_hold_no_two_texts_are_refused() {
     fs::create_dir(folder.path().join("robot.toml")).unwrap();
     assert_eq!(read(), "robot.toml: it is not a regular file");
     fs::remove_dir(folder.path().join("robot.toml")).unwrap();
-    fs::write(folder.path().join("robot.toml"), NAO.toml).unwrap();
+    let alone = NAO.toml.replacen("family = \"nao\"\n", "", 1);
+    fs::write(folder.path().join("robot.toml"), alone).unwrap();
     let mjcf = fs::File::create(folder.path().join("robot.xml")).unwrap();
     mjcf.set_len((16 << 20) + 1).unwrap();
     assert_eq!(read(), "robot.xml: it is larger than 16 MiB");

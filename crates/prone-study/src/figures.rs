@@ -38,6 +38,7 @@ pub use search::{
     ConfirmedRecord, GenerationRecord, Scores, SearchRecord, confirmation, generations,
 };
 
+use crate::published;
 use crate::record::{ChainRecord, CostRecord, PullRecord};
 use sheet::Sheet;
 pub use torque_map::figures as torque_map_figures;
@@ -108,7 +109,7 @@ struct GaitNumbers {
 
 const NUMBERED: [GaitNumbers; 2] = [
     GaitNumbers {
-        gait: "nominal",
+        gait: published::NOMINAL,
         chain: "26",
         torque: torque::Numbers {
             by_duration: "36",
@@ -119,7 +120,7 @@ const NUMBERED: [GaitNumbers; 2] = [
         published_divergence_s: 0.25,
     },
     GaitNumbers {
-        gait: "optimal",
+        gait: published::OPTIMAL,
         chain: "34",
         torque: torque::Numbers {
             by_duration: "37",

@@ -9,6 +9,7 @@ use prone_sim::camera::{self, Camera, Picture, PictureError};
 use prone_sim::{Snapshot, World};
 
 use crate::figures::{Figure, FigureError, raster};
+use crate::published;
 
 /// Size of one frame, pixels.
 const FRAME: (usize, usize) = (800, 300);
@@ -62,7 +63,11 @@ pub(crate) fn of(
         .par_iter()
         .map(|snapshot| camera::ray_cast(&mut world.at(snapshot), &camera, FRAME))
         .collect();
-    let number = if gait == "optimal" { "35" } else { "27" };
+    let number = if gait == published::OPTIMAL {
+        "35"
+    } else {
+        "27"
+    };
     let percents: Vec<String> = (0..snapshots.len())
         .map(|index| format!("{} %", index * 100 / (snapshots.len() - 1).max(1)))
         .collect();

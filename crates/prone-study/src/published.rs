@@ -13,6 +13,19 @@ const OPTIMAL_COSTS: [f64; 10] = [
     1.489, 2.494, 3.330, 4.379, 5.195, 5.928, 6.558, 7.692, 8.932, 9.643,
 ];
 
+/// Name of the published gait of constant knee and hip (Table 2).
+pub const NOMINAL: &str = "nominal";
+/// Name of the published gait of least torque (Table 3).
+pub const OPTIMAL: &str = "optimal";
+
+/// The gaits of the published study.
+pub const GAITS: [&str; 2] = [NOMINAL, OPTIMAL];
+
+/// The cycle of the published experiments on the robot.
+pub const TABLE_CYCLE: &str = "thesis-nominal";
+/// The scene of these experiments.
+pub const TABLE_SCENE: &str = "table";
+
 /// Durations of the published study, s.
 pub const DURATIONS_S: [f64; 10] = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0];
 
@@ -80,8 +93,8 @@ pub const TABLE_CRAWLS: [TableCrawl; 2] = [
 /// The published cost of a published gait, N²·m²·s.
 pub fn cost(gait: &str, duration_s: f64) -> Option<f64> {
     let costs = match gait {
-        "nominal" => NOMINAL_COSTS,
-        "optimal" => OPTIMAL_COSTS,
+        NOMINAL => NOMINAL_COSTS,
+        OPTIMAL => OPTIMAL_COSTS,
         _ => return None,
     };
     DURATIONS_S

@@ -34,18 +34,40 @@ pub(crate) struct RunInfo {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct RobotInfo {
     pub(crate) name: String,
+    /// Of which family it is a version; records of earlier builds do not say.
+    #[serde(default)]
+    pub(crate) family: Option<String>,
+    /// Which version of it.
+    #[serde(default)]
+    pub(crate) version: Option<String>,
     pub(crate) folder: String,
     pub(crate) sha256: String,
     /// How high it stands, mm, where its maker says so.
     pub(crate) standing_height_mm: Option<f64>,
 }
 
+/// Words for a version of a robot, `unknown` where a record does not say.
+pub(crate) fn version_name(family: Option<&str>, version: Option<&str>) -> String {
+    match (family, version) {
+        (Some(family), Some(version)) => format!("{version} of {family}"),
+        _ => "unknown".to_owned(),
+    }
+}
+
 impl RobotInfo {
+    pub(crate) fn version_name(&self) -> String {
+        version_name(self.family.as_deref(), self.version.as_deref())
+    }
+
     pub(crate) fn of(robot: &LoadedRobot) -> Self {
+        let files = robot.files();
+        let member = files.member.as_ref();
         Self {
             name: robot.robot().name.clone(),
-            folder: robot.files().folder.clone(),
-            sha256: robot.files().hash(),
+            family: member.map(|member| member.family.clone()),
+            version: member.map(|member| member.version.clone()),
+            folder: files.folder.clone(),
+            sha256: files.hash(),
             // The digits of robot.toml, which metres do not keep.
             standing_height_mm: robot
                 .robot()

@@ -139,10 +139,10 @@ fn ratios(costs: &[CostRecord]) -> Vec<RatioRow> {
             .iter()
             .find(|cost| cost.gait == gait && (cost.duration_s - duration).abs() < 1e-9)
     };
-    let nominal = costs.iter().filter(|cost| cost.gait == "nominal");
+    let nominal = costs.iter().filter(|cost| cost.gait == published::NOMINAL);
     nominal
         .filter_map(|nominal| {
-            let optimal = of("optimal", nominal.duration_s)?;
+            let optimal = of(published::OPTIMAL, nominal.duration_s)?;
             let published = optimal.published_n2m2s.zip(nominal.published_n2m2s);
             Some(RatioRow {
                 duration_s: nominal.duration_s,
@@ -175,7 +175,7 @@ fn ankle_peak(chain: &ChainRecord) -> Option<AnklePeak> {
         gait: chain.gait.clone(),
         height_mm: height(&peak),
         at_percent: peak.s * 100.0,
-        published_mm: (chain.gait == "nominal").then_some(published::ANKLE_PEAK_MM.into()),
+        published_mm: (chain.gait == published::NOMINAL).then_some(published::ANKLE_PEAK_MM.into()),
     })
 }
 

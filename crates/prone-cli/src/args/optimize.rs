@@ -42,7 +42,7 @@ Examples:
 
 The folder appears when all is done: gait.toml (for every other command), result.json, history.csv,
 confirmation.csv (the found gait simulated at other durations and in both contact regimes, beside
-nominal and optimal), figures, run.json, timing.json. Until then the search is kept in
+those of the robot's [defaults], such as nominal and optimal), figures, run.json, timing.json. Until then the search is kept in
 OUT.checkpoint.json beside it; after Ctrl-C or a kill, --resume goes on from there and ends in the
 same bytes as a search that was never stopped. The same seed gives the same bytes on any number of
 threads, except with --time-budget.")]
@@ -180,11 +180,6 @@ fn name(text: &str) -> Result<String, String> {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_".contains(c);
     if text.is_empty() || !text.chars().all(plain) {
         return Err("a gait's name is made of letters, digits, - and _".to_owned());
-    }
-    if ["nominal", "optimal"].contains(&text) {
-        return Err(
-            "nominal and optimal are the published gaits, which it is compared with".to_owned(),
-        );
     }
     Ok(text.to_owned())
 }

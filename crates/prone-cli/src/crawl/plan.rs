@@ -57,10 +57,11 @@ impl Plan {
                 "--seed draws joint offsets or an inertial unit's noise: it goes with --joint-offset-deg or --uphill"
             )));
         }
-        let gait = find_cycle(&args.gait)?;
-        let uphill = args.uphill.as_deref().map(find_cycle).transpose()?;
-        let (scene, scene_text) = scene(args)?;
         let robot = crate::robot::load(args.robot.as_deref())?;
+        let find = |name: &str| find_cycle(&robot.files().gaits, name);
+        let gait = find(&args.gait)?;
+        let uphill = args.uphill.as_deref().map(find).transpose()?;
+        let (scene, scene_text) = scene(args)?;
         let world = World::in_scene(&robot, regime(args), &scene).map_err(Failure::input)?;
         let steering = steering(args, &gait)?;
         for turn in steering.extremes() {

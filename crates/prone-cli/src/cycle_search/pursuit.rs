@@ -19,10 +19,7 @@ use super::files::{self, pretty};
 use super::{Job, Quest};
 use crate::checkpoint::Checkpoint;
 use crate::progress::SearchProgress;
-use crate::{Failure, interrupt, passage};
-
-/// The cycle that a found one is compared with, where the robot can crawl it.
-const COMPARED: &str = "thesis-nominal";
+use crate::{Failure, interrupt};
 
 /// Searches, confirms and writes the result.
 pub(super) fn pursue(quest: &mut Quest<'_>) -> Result<(), Failure> {
@@ -67,7 +64,6 @@ pub(super) fn pursue(quest: &mut Quest<'_>) -> Result<(), Failure> {
 
 /// What every plan says.
 fn complete(quest: &mut Quest<'_>) {
-    let files = quest.robot.files();
     quest.plan["program"] = json!("prone");
     quest.plan["version"] = json!(env!("CARGO_PKG_VERSION"));
     quest.plan["commit"] = json!(env!("PRONE_COMMIT"));
@@ -75,11 +71,7 @@ fn complete(quest: &mut Quest<'_>) {
     quest.plan["solver"] = json!("cma-es, about the middle");
     quest.plan["regime"] = json!(Regime::LOCOMOTION.name);
     quest.plan["bases"] = quest.jobs.iter().map(|job| job.base.as_str()).collect();
-    quest.plan["robot"] = json!({
-        "name": quest.robot.robot().name,
-        "folder": files.folder,
-        "sha256": files.hash(),
-    });
+    quest.plan["robot"] = crate::robot::said(quest.robot);
 }
 
 /// New searches, one a job, or those that were interrupted.
@@ -202,11 +194,12 @@ fn found(quest: &Quest<'_>, searches: &[Search]) -> Result<(Frontier, Vec<Cycle>
             gaits.push(cycle);
         }
     }
-    if let Ok(cycle) = passage::find(COMPARED) {
-        let confirmed = frontier::confirm(&quest.confirmation, &cycle, f64::INFINITY);
+    for cycle in &quest.compared {
+        let confirmed = frontier::confirm(&quest.confirmation, cycle, f64::INFINITY);
+        // What the robot cannot crawl is no comparison.
         if confirmed.settings.iter().any(|row| row.refused.is_none()) {
             frontier.compared.push(Compared {
-                gait: COMPARED.to_owned(),
+                gait: cycle.pull.name.clone(),
                 confirmed,
             });
         }

@@ -12,19 +12,23 @@ use prone_study::recorded::{Recorded, RecordedRun};
 use crate::Failure;
 use crate::args::ExportArgs;
 
-/// The files of the robot that crawled: of --robot, the one that ships, or that of the folder in
+/// The files of the robot that crawled: of --robot, one that ships, or that of the folder in
 /// the record. They must be those of the record.
 pub(super) fn files(args: &ExportArgs, run: &RecordedRun) -> Result<RobotFiles, Failure> {
     let recorded = &run.robot;
-    let shipped = RobotFiles::shipped(&shipped::NAO);
+    let mut shipped = shipped::families()
+        .flat_map(|family| family.versions)
+        .map(RobotFiles::shipped);
     let files = match &args.robot {
-        Some(folder) => RobotFiles::read(folder).map_err(Failure::input)?,
-        None if shipped.hash() == recorded.sha256 => shipped,
-        None => RobotFiles::read(Path::new(&recorded.folder)).map_err(|error| {
-            Failure::Input(anyhow!(
-                "{error}; --robot says where the robot of this run is"
-            ))
-        })?,
+        Some(name) => RobotFiles::named(name).map_err(Failure::input)?,
+        None => match shipped.find(|robot| robot.hash() == recorded.sha256) {
+            Some(robot) => robot,
+            None => RobotFiles::read(Path::new(&recorded.folder)).map_err(|error| {
+                Failure::Input(anyhow!(
+                    "{error}; --robot says where the robot of this run is"
+                ))
+            })?,
+        },
     };
     if files.hash() != recorded.sha256 {
         return Err(Failure::Input(anyhow!(

@@ -6,23 +6,23 @@ use serde_json::json;
 
 use prone::gait::cycle::{CheckedCycle, Cycle, TimeScale};
 use prone::robot::Robot;
+use prone_sim::LoadedRobot;
 use prone_study::gait_sheet;
 
 use super::find_cycle;
 use crate::Failure;
 use crate::args::GaitShowArgs;
 
-pub(super) fn show(args: &GaitShowArgs) -> Result<(), Failure> {
-    let source = find_cycle(&args.gait)?;
+pub(super) fn show(args: &GaitShowArgs, loaded: &LoadedRobot) -> Result<(), Failure> {
+    let source = find_cycle(&loaded.files().gaits, &args.gait)?;
     let cycle = &source.cycle;
-    let loaded = crate::robot::load(args.robot.as_deref())?;
     let robot = loaded.robot();
     let checked = CheckedCycle::plan(robot, &robot.stops(), cycle, 0.0, TimeScale::ONE)
         .map_err(|error| super::refused(&source, &error))?;
     let duration = args.duration.unwrap_or(cycle.pull_duration);
     let sheet = gait_sheet::of(robot, &cycle.pull, duration).map_err(Failure::input)?;
     if let Some(path) = &args.csv {
-        super::write_csv(&sheet, path, &super::inputs(args, &loaded))?;
+        super::write_csv(&sheet, path, &super::inputs(args, loaded)?)?;
     }
     let mut out = std::io::stdout().lock();
     if args.json {

@@ -1,12 +1,10 @@
 //! `prone torque-map build`.
 
 use std::io::Write as _;
-use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::anyhow;
 
-use prone_files::robot_file::RobotFile;
 use prone_sim::LoadedRobot;
 use prone_study::torque_map::build::{self, BuildError, Built, Summary};
 use prone_study::torque_map::{Job, Journal, JournalError, NodeGrid, Opening, Source};
@@ -63,13 +61,7 @@ fn check_place(args: &BuildArgs, robot: &LoadedRobot) -> Result<(), Failure> {
     let out = args.out.display();
     table_file::check_place(&args.out)
         .map_err(|error| Failure::Input(anyhow!("cannot write {out}: {error}")))?;
-    let mut inputs: Vec<PathBuf> = Vec::new();
-    if let Some(folder) = &args.robot {
-        inputs.push(folder.join("robot.toml"));
-        let table = RobotFile::parse("robot.toml", &robot.files().toml);
-        inputs.extend(table.map(|table| folder.join(table.model.get_ref())));
-    }
-    match table_file::same_file(&args.out, &inputs) {
+    match table_file::same_file(&args.out, &robot.files().read) {
         None => Ok(()),
         Some(input) => Err(Failure::Input(anyhow!(
             "--out {out} would overwrite {}, which was read",

@@ -16,5 +16,6 @@ pub(crate) fn changed(toml: (&str, &str), mjcf: (&str, &str)) -> RobotFiles {
         folder: "nao".to_owned(),
         toml: change(NAO.toml, toml),
         mjcf: change(NAO.mjcf, mjcf),
+        ..RobotFiles::shipped(&NAO)
     }
 }

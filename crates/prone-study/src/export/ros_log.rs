@@ -232,6 +232,7 @@ impl Log {
         let metadata = [
             ("program", format!("prone {} ({})", run.version, run.commit)),
             ("robot", run.robot.name.clone()),
+            ("robot version", run.robot.version_name()),
             ("gait", run.gait.name.clone()),
             ("scene", run.scene.name.clone()),
         ];

@@ -9,6 +9,7 @@ use super::ReadError;
 use super::error::text;
 use super::model::MODEL_FILE;
 use crate::output::RUN_FILE;
+use crate::run_info::version_name;
 
 /// Longest time between two rows, s: a record of a robot that is slower is none.
 const LONGEST_STEP_S: f64 = 10.0;
@@ -70,10 +71,23 @@ impl Command {
 pub struct RecordedRobot {
     /// The maker's name.
     pub name: String,
+    /// Of which family it is a version; records of earlier builds do not say.
+    #[serde(default)]
+    pub family: Option<String>,
+    /// Which version of it.
+    #[serde(default)]
+    pub version: Option<String>,
     /// Its folder, as the user named it.
     pub folder: String,
     /// Of its files.
     pub sha256: String,
+}
+
+impl RecordedRobot {
+    /// Which version of which family it was, `unknown` where the record does not say.
+    pub fn version_name(&self) -> String {
+        version_name(self.family.as_deref(), self.version.as_deref())
+    }
 }
 
 /// Which cycle or gait it was.

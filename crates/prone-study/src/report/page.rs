@@ -15,6 +15,7 @@ use super::{
     sections,
 };
 use crate::page_head;
+use crate::published;
 
 const STYLE: &str = include_str!("style.css");
 
@@ -195,8 +196,8 @@ impl Page<'_> {
             @if number == "25" {
                 @for study in self.studies() {
                     @for gait in &study.info.options.gaits {
-                        @if gait.name == "nominal" { (parameter_tables::nominal(&gait.curves)) }
-                        @if gait.name == "optimal" { (parameter_tables::optimal(&gait.curves)) }
+                        @if gait.name == published::NOMINAL { (parameter_tables::nominal(&gait.curves)) }
+                        @if gait.name == published::OPTIMAL { (parameter_tables::optimal(&gait.curves)) }
                     }
                 }
                 @for run in self.runs {

@@ -140,7 +140,7 @@ pub(super) fn what_was_run(runs: &[Run]) -> Markup {
 }
 
 /// Words and numbers of a `run.json` that are worth reading, with where they are.
-const FACTS: [(&str, &str); 22] = [
+const FACTS: [(&str, &str); 24] = [
     ("gait", "/gait/name"),
     ("about it", "/gait/description"),
     ("its file", "/gait/file"),
@@ -158,6 +158,8 @@ const FACTS: [(&str, &str); 22] = [
     ("time scale", "/options/time_scale"),
     ("seed of joint errors", "/options/seed"),
     ("robot", "/robot/name"),
+    ("its family", "/robot/family"),
+    ("its version", "/robot/version"),
     ("its files, SHA-256", "/robot/sha256"),
     ("solver", "/solver"),
     ("seed", "/seed"),

@@ -3,6 +3,7 @@
 use maud::{Markup, html};
 
 use crate::contact_story::ContactStory;
+use crate::published;
 use crate::run_info::RunInfo;
 use crate::summary::{CostRow, Summary};
 
@@ -140,7 +141,7 @@ pub(super) fn costs(summary: &Summary) -> Markup {
                     ] { th scope="col" { (head) } }
                 } }
                 tbody {
-                    @for (nominal, optimal) in rows("nominal").zip(rows("optimal")) {
+                    @for (nominal, optimal) in rows(published::NOMINAL).zip(rows(published::OPTIMAL)) {
                         tr {
                             td { (nominal.duration_s) " s" }
                             @for row in [nominal, optimal] { (cost_cells(row)) }
@@ -381,7 +382,7 @@ pub(super) fn study_facts(info: &RunInfo) -> Markup {
             dd { (gait.description) "; mapping " (gait.mapping) ", arms " (gait.arm) }
         }
         dt { "durations" } dd { (durations.join(", ")) " s" }
-        dt { "robot" } dd { (info.robot.name) ", " (info.robot.folder) ", SHA-256 " (info.robot.sha256) }
+        dt { "robot" } dd { (info.robot.name) ", version " (info.robot.version_name()) ", " (info.robot.folder) ", SHA-256 " (info.robot.sha256) }
         dt { "time step" } dd { (options.time_step_s * 1e3) " ms" }
         dt { "contact regime" } dd { (options.regime) ": friction " (options.friction) ", impratio " (options.impratio) }
         dt { "servo" } dd {

@@ -135,12 +135,16 @@ impl<'r> Job<'r> {
         let (knees, hips, arms) = (grid.knee.len(), grid.hip.len(), grid.upper_arm.len());
         let [theta3, theta4, alpha, step] = self.grid.bounds().map(|bound| bound.1);
         let robot = &self.robot.robot().name;
+        let files = self.robot.files();
+        let member = files.member.as_ref().map_or_else(String::new, |member| {
+            format!(", version {} of {}", member.version, member.family)
+        });
         vec![
             format!("torque map by prone {version}, commit {commit}"),
             format!("source: {}: {}", self.source.name(), self.still()),
             format!("regime: {}", self.source.regime()),
             format!("mapping: {}; arms: {}", VARIANT.name(), ARM.name()),
-            format!("robot: {robot}, sha256 {}", self.robot.files().hash()),
+            format!("robot: {robot}, sha256 {}{member}", files.hash()),
             format!("engine: {}", prone_sim::engine_version()),
             format!("grid: theta3 {theta3}, theta4 {theta4}, alpha {alpha}, step {step}"),
             format!("rows: {knees} x {hips} x {arms} = {}", grid.len()),

@@ -1,0 +1,358 @@
+//! A robot's folder: the two texts that define the robot, its family and its gaits.
+//!
+//! A folder with a `robot.toml` is a robot. A folder with a `family.toml` is a family: its robots
+//! are the versions in the folders within, and it stands for the one that it calls the default.
+//! A version's `robot.toml` names its family, and what versions share lies beside `family.toml`.
+//!
+//! ```text
+//! robots/nao/family.toml       name = "nao", default = "v4", [defaults]
+//! robots/nao/gaits/*.toml
+//! robots/nao/v4/robot.toml     family = "nao", model = "robot.xml", …
+//! robots/nao/v4/robot.xml
+//! ```
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::defaults::{Defaults, DefaultsTable, Kind};
+use crate::error::Source;
+use crate::family_file::FamilyFile;
+use crate::gaits::Gaits;
+use crate::plain_name::is_plain;
+use crate::robot_file::{Name, RobotFile};
+use crate::shipped::{self, RobotSource};
+use crate::{FileError, text_file};
+
+const ROBOT_FILE: &str = "robot.toml";
+const FAMILY_FILE: &str = "family.toml";
+
+/// The texts of a robot, and where they came from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RobotFiles {
+    /// The robot's own folder, as shown to a user.
+    pub folder: String,
+    /// `robot.toml`.
+    pub toml: String,
+    /// The MJCF model that it names.
+    pub mjcf: String,
+    /// Which version of which family it is, where it is one.
+    pub member: Option<Member>,
+    /// Where its own gaits are.
+    pub gaits: Gaits,
+    /// The files that were read; of a robot that ships there are none.
+    pub read: Vec<PathBuf>,
+}
+
+/// A robot as one version of a family.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Member {
+    /// The family's name.
+    pub family: String,
+    /// Which version of it the robot is: the name of its folder.
+    pub version: String,
+    /// Name of the family's `family.toml`, as shown to a user.
+    file: String,
+    /// Text of that file.
+    text: String,
+}
+
+/// Why a robot's folder cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum RobotFolderError {
+    /// A file cannot be read.
+    #[error("cannot read {}: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// A text is malformed, or names what is not there.
+    #[error(transparent)]
+    Text(#[from] FileError),
+    /// Which robot is meant cannot be said.
+    #[error(
+        "{folder} has both a {FAMILY_FILE} and a {ROBOT_FILE}: the robots of a family are in folders of their own within it"
+    )]
+    FamilyAndRobot {
+        /// The folder.
+        folder: String,
+    },
+}
+
+impl RobotFiles {
+    /// A robot that ships with the program.
+    pub fn shipped(source: &RobotSource) -> Self {
+        let family = shipped::family_of(source);
+        Self {
+            folder: source.folder.to_owned(),
+            toml: source.toml.to_owned(),
+            mjcf: source.mjcf.to_owned(),
+            member: family.map(|family| Member {
+                family: family.name.to_owned(),
+                version: source.version.to_owned(),
+                file: family.toml_name(),
+                text: family.toml.to_owned(),
+            }),
+            gaits: family.map_or(Gaits::None, Gaits::Shipped),
+            read: Vec::new(),
+        }
+    }
+
+    /// The robot that a user names: by a folder, as [`RobotFiles::read`] takes it, or by the name of
+    /// one that ships, as [`shipped::robot`] takes it. A folder goes first.
+    ///
+    /// # Errors
+    /// [`RobotFolderError`].
+    pub fn named(name: &Path) -> Result<Self, RobotFolderError> {
+        if !name.exists()
+            && let Some(shipped) = name.to_str().and_then(shipped::robot)
+        {
+            return Ok(Self::shipped(shipped?));
+        }
+        Self::read(name)
+    }
+
+    /// Reads the robot of a folder, or the default version of a family's folder.
+    ///
+    /// # Errors
+    /// [`RobotFolderError`].
+    pub fn read(folder: &Path) -> Result<Self, RobotFolderError> {
+        let family_file = folder.join(FAMILY_FILE);
+        if !family_file.exists() {
+            return Self::read_robot(folder, None);
+        }
+        if folder.join(ROBOT_FILE).exists() {
+            let folder = folder.display().to_string();
+            return Err(RobotFolderError::FamilyAndRobot { folder });
+        }
+        let family = Family::read(folder)?;
+        let version = folder.join(family.table.default.get_ref());
+        if !version.join(ROBOT_FILE).exists() {
+            let message = format!("there is no {}", version.join(ROBOT_FILE).display());
+            return Err(family.error(&family.table.default, &message));
+        }
+        Self::read_robot(&version, Some(family))
+    }
+
+    /// Reads the robot of a folder; its family, where it is not known, is in the folder around it.
+    fn read_robot(folder: &Path, family: Option<Family>) -> Result<Self, RobotFolderError> {
+        let toml_path = folder.join(ROBOT_FILE);
+        let toml = read(&toml_path)?;
+        let toml_name = toml_path.display().to_string();
+        let table = RobotFile::parse(&toml_name, &toml)?;
+        check_model_name(&toml_name, &toml, &table.model)?;
+        let mjcf_path = folder.join(table.model.get_ref());
+        let mjcf = read(&mjcf_path)?;
+        let source = Source {
+            file: &toml_name,
+            text: &toml,
+        };
+        let mut read = vec![toml_path, mjcf_path];
+        let (member, gaits) = match table.family {
+            Some(name) => {
+                let family = match family {
+                    Some(family) => family,
+                    None => Family::around(folder, &name, source)?,
+                };
+                read.push(family.folder.join(FAMILY_FILE));
+                let gaits = Gaits::beside(&family.folder);
+                check_names(&family.table.defaults, family.source(), &gaits)?;
+                (Some(family.member(folder, &name, source)?), gaits)
+            }
+            None if family.is_some() => {
+                let message = "a version names its family: the key family is missing";
+                return Err(source.error(0..0, message).into());
+            }
+            None => (None, Gaits::beside(folder)),
+        };
+        check_names(&table.defaults, source, &gaits)?;
+        Ok(Self {
+            folder: folder.display().to_string(),
+            toml,
+            mjcf,
+            member,
+            gaits,
+            read,
+        })
+    }
+
+    /// SHA-256 of the two texts that define the robot, hexadecimal.
+    pub fn hash(&self) -> String {
+        text_file::sha256(&[&self.toml, &self.mjcf])
+    }
+
+    /// Name of `robot.toml`, as shown to a user.
+    pub fn toml_name(&self) -> String {
+        format!("{}/{ROBOT_FILE}", self.folder)
+    }
+
+    /// Which gaits the program uses where a user names none: those of the robot's `robot.toml`, its
+    /// family's, and for the rest those of the robot that ships.
+    ///
+    /// # Errors
+    /// [`RobotFolderError`] for texts that are malformed, and gaits that cannot be read.
+    pub fn defaults(&self) -> Result<Defaults, RobotFolderError> {
+        let mut defaults = shipped::defaults()?;
+        let own = RobotFile::parse(&self.toml_name(), &self.toml)?.defaults;
+        let family = match &self.member {
+            Some(member) => FamilyFile::parse(&member.file, &member.text)?.defaults,
+            None => DefaultsTable::default(),
+        };
+        if !own.has_under() && !family.has_under() {
+            let cycles = self.gaits.own_cycles()?;
+            if !cycles.is_empty() {
+                defaults.cycle.under = cycles;
+            }
+        }
+        Ok(own.over(family.over(defaults)))
+    }
+}
+
+/// A `family.toml` that was read.
+struct Family {
+    folder: PathBuf,
+    file: String,
+    text: String,
+    table: FamilyFile,
+}
+
+impl Family {
+    fn read(folder: &Path) -> Result<Self, RobotFolderError> {
+        let path = folder.join(FAMILY_FILE);
+        let text = read(&path)?;
+        let file = path.display().to_string();
+        let table = FamilyFile::parse(&file, &text)?;
+        Ok(Self {
+            folder: folder.to_owned(),
+            file,
+            text,
+            table,
+        })
+    }
+
+    /// The family in the folder around a version's.
+    fn around(version: &Path, name: &Name, source: Source<'_>) -> Result<Self, RobotFolderError> {
+        let folder = match version.parent() {
+            // What ends in a name has its parent in its text; `.` and `..` have not.
+            Some(parent) if version.file_name().is_some() => match parent.as_os_str().len() {
+                0 => PathBuf::from("."),
+                _ => parent.to_owned(),
+            },
+            _ => version.join(".."),
+        };
+        let file = folder.join(FAMILY_FILE);
+        if !file.exists() {
+            let message = format!(
+                "there is no {}: a version lies in its family's folder; a robot without a family has no key family",
+                file.display()
+            );
+            return Err(source.error(name.span(), message).into());
+        }
+        Self::read(&folder)
+    }
+
+    fn source(&self) -> Source<'_> {
+        Source {
+            file: &self.file,
+            text: &self.text,
+        }
+    }
+
+    fn error(&self, place: &Name, message: &str) -> RobotFolderError {
+        self.source().error(place.span(), message).into()
+    }
+
+    /// The robot of a folder as a version of this family, which it has to name.
+    fn member(
+        self,
+        folder: &Path,
+        named: &Name,
+        source: Source<'_>,
+    ) -> Result<Member, RobotFolderError> {
+        let family = self.table.name.into_inner();
+        if family != *named.get_ref() {
+            let message = format!(
+                "the family of {} is called {family:?}, not {:?}",
+                self.file,
+                named.get_ref()
+            );
+            return Err(source.error(named.span(), message).into());
+        }
+        let real = fs::canonicalize(folder).map_err(|source| RobotFolderError::Read {
+            path: folder.to_owned(),
+            source,
+        })?;
+        let version = real.file_name().and_then(|name| name.to_str());
+        let Some(version) = version.filter(|version| is_plain(version)) else {
+            let message = format!(
+                "the folder of a version is named by letters, digits, - and _, not {}",
+                real.display()
+            );
+            return Err(source.error(named.span(), message).into());
+        };
+        Ok(Member {
+            family,
+            version: version.to_owned(),
+            file: self.file,
+            text: self.text,
+        })
+    }
+}
+
+/// Every gait that a `[defaults]` names is there, and is what it is used as.
+fn check_names(
+    table: &DefaultsTable,
+    source: Source<'_>,
+    gaits: &Gaits,
+) -> Result<(), RobotFolderError> {
+    for (kind, name) in table.names() {
+        let is = gaits.find(name.get_ref())?.map(|gait| {
+            if gait.is_cycle() {
+                Kind::Cycle
+            } else {
+                Kind::Pull
+            }
+        });
+        let message = match is {
+            Some(is) if is == kind => continue,
+            Some(is) => format!(
+                "{} is a {}, not a {}",
+                name.get_ref(),
+                is.noun(),
+                kind.noun()
+            ),
+            None => format!("there is no gait {:?}", name.get_ref()),
+        };
+        return Err(source.error(name.span(), message).into());
+    }
+    Ok(())
+}
+
+/// The model lies beside `robot.toml`: a robot is one folder.
+///
+/// # Errors
+/// [`FileError`] for a path.
+pub fn check_model_name(file: &str, toml: &str, model: &Name) -> Result<(), FileError> {
+    let name = model.get_ref();
+    let is_plain = Path::new(name)
+        .file_name()
+        .is_some_and(|last| last == name.as_str())
+        && !name.contains(['\\', '\0']);
+    if is_plain {
+        return Ok(());
+    }
+    let message = format!("model must be the name of a file beside this one, not {name:?}");
+    Err(RobotFile::error_at(file, toml, model, &message))
+}
+
+/// Reads a regular file, and no more of it than a model can need.
+fn read(path: &Path) -> Result<String, RobotFolderError> {
+    text_file::read(path).map_err(|source| RobotFolderError::Read {
+        path: path.to_owned(),
+        source,
+    })
+}
+
+#[cfg(test)]
+mod tests;
