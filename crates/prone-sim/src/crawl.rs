@@ -34,9 +34,6 @@ use crate::simulation::{Placement, Simulation, SimulationError, Snapshot};
 use crate::world::World;
 use measure::Meter;
 
-/// Time between two commands, s: the cycle of the motor boards of the first robot that crawled so.
-pub const COMMAND_STEP: f64 = 0.01;
-
 /// Last part of settling in which a pilot's senses are on, s.
 const FELT_AT_REST: f64 = 0.3;
 
@@ -118,7 +115,7 @@ pub enum CrawlError {
     /// The robot's inertial unit cannot be read.
     #[error(transparent)]
     Imu(#[from] ImuError),
-    /// The engine's step and the time between commands do not go together.
+    /// The engine's step and the robot's time between commands do not go together.
     #[error(transparent)]
     Timing(#[from] TimingError),
     /// The run broke down.
@@ -178,7 +175,7 @@ pub fn crawler<P: Pilot>(
         at_most: most_cycles,
         ..
     }) = plan.end;
-    let every = COMMAND_STEP;
+    let every = world.robot().control.command_step;
     let program = Program {
         cycles: plan.cycles.clone(),
         scale: plan.scale,

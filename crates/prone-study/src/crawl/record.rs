@@ -1,7 +1,7 @@
 //! The files of a record folder.
 
 use prone::steering::Bearing;
-use prone_sim::crawl::{COMMAND_STEP, Crawl, ROW_STEP};
+use prone_sim::crawl::{Crawl, ROW_STEP};
 use prone_sim::{LoadedRobot, World};
 use serde::Serialize;
 
@@ -94,7 +94,7 @@ pub(crate) fn numbers(
         command,
         gait: &gait.cycle.pull,
         file: (&gait.file, &gait.text),
-        command_step_s: COMMAND_STEP,
+        command_step_s: world.robot().control.command_step,
         extent: Extent {
             rows: crawl.rows.len(),
             row_step_s: ROW_STEP,
