@@ -15,8 +15,8 @@ INPUTS = "inputs"
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 GIVEN = Path(__file__).resolve().parent / INPUTS
-# A robot folder that is given by name: the one that ships, as it is in the repository.
-ROBOT = REPOSITORY / "robots" / "nao" / "v4"
+# A robot that is given by a folder: the family that ships, as it is in the repository.
+ROBOT = REPOSITORY / "robots" / "nao"
 
 # Commands that work on several threads.
 THREADED = [

@@ -11,8 +11,9 @@ use prone::gait::cycle::CycleError;
 use prone::gait::{Gait, PhaseDuration};
 use prone::mapping::{ArmMode, MappingVariant};
 use prone::robot::Robot;
-use prone_files::gaits::{GaitText, Gaits};
-use prone_files::robot_folder::RobotFolderError;
+use prone_files::gait_text::GaitText;
+use prone_files::gaits::Gaits;
+use prone_files::text_file::ReadError;
 use prone_files::{cycle_file, gait_file, shipped, text_file};
 use prone_sim::LoadedRobot;
 use prone_study::crawl::GaitSource;
@@ -76,7 +77,7 @@ fn unknown(
     noun: &str,
     name: &str,
     gaits: &Gaits,
-    own: Result<Vec<String>, RobotFolderError>,
+    own: Result<Vec<String>, ReadError>,
     shipped: &mut dyn Iterator<Item = &'static str>,
 ) -> Failure {
     let own = match (gaits, own) {

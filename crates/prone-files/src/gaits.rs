@@ -4,14 +4,13 @@
 //! without one. A file is looked at when its name is asked for, so that one which is broken is in
 //! nobody's way.
 
-use std::borrow::Cow;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::gait_text::GaitText;
 use crate::plain_name::is_plain;
-use crate::robot_folder::RobotFolderError;
 use crate::shipped::{self, FamilySource};
-use crate::{cycle_file, text_file};
+use crate::text_file::ReadError;
 
 /// Name of the folder of gaits.
 pub(crate) const FOLDER: &str = "gaits";
@@ -31,43 +30,6 @@ pub enum Gaits {
     Folder(PathBuf),
 }
 
-/// A gait's file.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct GaitText {
-    /// Its name, as shown to a user.
-    pub file: String,
-    /// Its text.
-    pub text: Cow<'static, str>,
-    /// Where it was read; nowhere if it ships.
-    pub read: Option<PathBuf>,
-}
-
-impl GaitText {
-    /// Reads a gait's file.
-    ///
-    /// # Errors
-    /// [`RobotFolderError::Read`].
-    pub fn read(path: &Path) -> Result<Self, RobotFolderError> {
-        let read = Some(path.to_owned());
-        match text_file::read(path) {
-            Ok(text) => Ok(Self {
-                file: path.display().to_string(),
-                text: text.into(),
-                read,
-            }),
-            Err(source) => Err(RobotFolderError::Read {
-                path: path.to_owned(),
-                source,
-            }),
-        }
-    }
-
-    /// Whether it holds a whole cycle, and not a pull alone.
-    pub fn is_cycle(&self) -> bool {
-        cycle_file::is_cycle(&self.text)
-    }
-}
-
 impl Gaits {
     /// The gaits beside a `family.toml` or `robot.toml`.
     pub(crate) fn beside(folder: &Path) -> Self {
@@ -82,8 +44,8 @@ impl Gaits {
     /// The gait of a name: the robot's own, or else one that ships; `None` where there is neither.
     ///
     /// # Errors
-    /// [`RobotFolderError::Read`] where there is a file that cannot be read.
-    pub fn find(&self, name: &str) -> Result<Option<GaitText>, RobotFolderError> {
+    /// [`ReadError`] where there is a file that cannot be read.
+    pub fn find(&self, name: &str) -> Result<Option<GaitText>, ReadError> {
         if !is_plain(name) {
             return Ok(None);
         }
@@ -105,8 +67,8 @@ impl Gaits {
     /// Names of the robot's own pulls: as they ship, or in the order of their names.
     ///
     /// # Errors
-    /// [`RobotFolderError`] where the folder or one of its files cannot be read.
-    pub fn own_pulls(&self) -> Result<Vec<String>, RobotFolderError> {
+    /// [`ReadError`] where the folder or one of its files cannot be read.
+    pub fn own_pulls(&self) -> Result<Vec<String>, ReadError> {
         match self {
             Self::None => Ok(Vec::new()),
             Self::Shipped(family) => Ok(family.pull_names().map(str::to_owned).collect()),
@@ -117,8 +79,8 @@ impl Gaits {
     /// Names of the robot's own cycles: as they ship, or in the order of their names.
     ///
     /// # Errors
-    /// [`RobotFolderError`] where the folder or one of its files cannot be read.
-    pub fn own_cycles(&self) -> Result<Vec<String>, RobotFolderError> {
+    /// [`ReadError`] where the folder or one of its files cannot be read.
+    pub fn own_cycles(&self) -> Result<Vec<String>, ReadError> {
         match self {
             Self::None => Ok(Vec::new()),
             Self::Shipped(family) => Ok(family.cycle_names().map(str::to_owned).collect()),
@@ -130,8 +92,8 @@ impl Gaits {
         &self,
         folder: &Path,
         wanted: impl Fn(&GaitText) -> bool,
-    ) -> Result<Vec<String>, RobotFolderError> {
-        let unread = |source| RobotFolderError::Read {
+    ) -> Result<Vec<String>, ReadError> {
+        let unread = |source| ReadError {
             path: folder.to_owned(),
             source,
         };

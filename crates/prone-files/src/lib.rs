@@ -11,6 +11,7 @@ mod error;
 mod exactly;
 pub mod family_file;
 pub mod gait_file;
+pub mod gait_text;
 pub mod gaits;
 mod plain_name;
 pub mod robot_file;

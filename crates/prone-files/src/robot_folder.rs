@@ -21,6 +21,7 @@ use crate::gaits::Gaits;
 use crate::plain_name::is_plain;
 use crate::robot_file::{Name, RobotFile};
 use crate::shipped::{self, RobotSource};
+use crate::text_file::{ReadError, read_named};
 use crate::{FileError, text_file};
 
 const ROBOT_FILE: &str = "robot.toml";
@@ -60,13 +61,8 @@ pub struct Member {
 #[derive(Debug, thiserror::Error)]
 pub enum RobotFolderError {
     /// A file cannot be read.
-    #[error("cannot read {}: {source}", path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: std::io::Error,
-    },
+    #[error(transparent)]
+    Read(#[from] ReadError),
     /// A text is malformed, or names what is not there.
     #[error(transparent)]
     Text(#[from] FileError),
@@ -138,12 +134,12 @@ impl RobotFiles {
     /// Reads the robot of a folder; its family, where it is not known, is in the folder around it.
     fn read_robot(folder: &Path, family: Option<Family>) -> Result<Self, RobotFolderError> {
         let toml_path = folder.join(ROBOT_FILE);
-        let toml = read(&toml_path)?;
+        let toml = read_named(&toml_path)?;
         let toml_name = toml_path.display().to_string();
         let table = RobotFile::parse(&toml_name, &toml)?;
         check_model_name(&toml_name, &toml, &table.model)?;
         let mjcf_path = folder.join(table.model.get_ref());
-        let mjcf = read(&mjcf_path)?;
+        let mjcf = read_named(&mjcf_path)?;
         let source = Source {
             file: &toml_name,
             text: &toml,
@@ -220,7 +216,7 @@ struct Family {
 impl Family {
     fn read(folder: &Path) -> Result<Self, RobotFolderError> {
         let path = folder.join(FAMILY_FILE);
-        let text = read(&path)?;
+        let text = read_named(&path)?;
         let file = path.display().to_string();
         let table = FamilyFile::parse(&file, &text)?;
         Ok(Self {
@@ -279,7 +275,7 @@ impl Family {
             );
             return Err(source.error(named.span(), message).into());
         }
-        let real = fs::canonicalize(folder).map_err(|source| RobotFolderError::Read {
+        let real = fs::canonicalize(folder).map_err(|source| ReadError {
             path: folder.to_owned(),
             source,
         })?;
@@ -344,14 +340,6 @@ pub fn check_model_name(file: &str, toml: &str, model: &Name) -> Result<(), File
     }
     let message = format!("model must be the name of a file beside this one, not {name:?}");
     Err(RobotFile::error_at(file, toml, model, &message))
-}
-
-/// Reads a regular file, and no more of it than a model can need.
-fn read(path: &Path) -> Result<String, RobotFolderError> {
-    text_file::read(path).map_err(|source| RobotFolderError::Read {
-        path: path.to_owned(),
-        source,
-    })
 }
 
 #[cfg(test)]

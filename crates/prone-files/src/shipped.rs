@@ -7,7 +7,7 @@ use prone::scene::Scene;
 use crate::defaults::Defaults;
 use crate::error::Source;
 use crate::family_file::FamilyFile;
-use crate::gaits::GaitText;
+use crate::gait_text::GaitText;
 use crate::{FileError, cycle_file, gait_file, scene_file};
 
 /// A family of robots, embedded.

@@ -2,13 +2,34 @@
 
 use std::fs::{self, File};
 use std::io::{self, Read as _};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
 /// The largest file that is read: far beyond any robot or gait, far below the memory of any
 /// machine.
 pub const LARGEST_BYTES: u64 = 16 << 20;
+
+/// A file that cannot be read.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot read {}: {source}", path.display())]
+pub struct ReadError {
+    /// The file.
+    pub path: PathBuf,
+    /// Why.
+    pub source: io::Error,
+}
+
+/// Reads as [`read`] does, with an error that names the file.
+///
+/// # Errors
+/// [`ReadError`].
+pub fn read_named(path: &Path) -> Result<String, ReadError> {
+    read(path).map_err(|source| ReadError {
+        path: path.to_owned(),
+        source,
+    })
+}
 
 /// Reads a regular file of at most [`LARGEST_BYTES`]; a pipe would be waited for, a device may
 /// never end.

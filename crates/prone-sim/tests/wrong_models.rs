@@ -7,6 +7,7 @@ use std::fs;
 use changed::{SAME, changed};
 use prone_files::robot_folder::RobotFolderError;
 use prone_files::shipped::NAO;
+use prone_files::text_file::ReadError;
 use prone_sim::{LoadedRobot, RobotFiles};
 
 /// The message for one change in `robot.xml`.
@@ -485,7 +486,7 @@ fn tables_that_fit_no_robot_are_refused() {
 fn folders_that_hold_no_two_texts_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let read = || match RobotFiles::read(folder.path()) {
-        Err(RobotFolderError::Read { path, source }) => {
+        Err(RobotFolderError::Read(ReadError { path, source })) => {
             let file = path.file_name().unwrap().display().to_string();
             format!("{file}: {source}")
         }
