@@ -95,6 +95,8 @@ pub(crate) enum GaitCommand {
 pub(crate) enum RobotCommand {
     /// Validate a robot's files and print its crawling chain
     Check(RobotCheckArgs),
+    /// Write a robot for programs that have no physics engine
+    Compile(RobotCompileArgs),
 }
 
 #[derive(Debug, clap::Args)]
@@ -173,6 +175,27 @@ pub(crate) struct RobotCheckArgs {
     #[arg(value_name = "DIR")]
     pub(crate) robot: Option<PathBuf>,
     /// Print everything as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  prone robot compile robots/nao          beside robot.toml, as robot.compiled.json
+  prone robot compile my-robot --out /tmp/my-robot.json
+  prone robot compile --out nao.json --json
+
+The file holds all that prone knows of the robot, and the hash of robot.toml and its model: once one
+of them has changed it is stale and refused. The same robot gives the same bytes.")]
+pub(crate) struct RobotCompileArgs {
+    /// Robot folder with robot.toml and its model [default: the NAO that ships with prone]
+    #[arg(value_name = "DIR")]
+    pub(crate) robot: Option<PathBuf>,
+    /// The file [default: robot.compiled.json beside the robot.toml of DIR]
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+    /// Print what was written as JSON
     #[arg(long)]
     pub(crate) json: bool,
 }

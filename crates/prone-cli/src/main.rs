@@ -44,6 +44,7 @@ fn main() -> ExitCode {
         Command::Cost(args) => cost::run(&args),
         Command::Gait(GaitCommand::Show(args)) => gait::show(&args),
         Command::Robot(RobotCommand::Check(args)) => robot::check(&args),
+        Command::Robot(RobotCommand::Compile(args)) => robot::compile::run(&args),
         Command::Report(args) => report::run(&args),
         Command::TorqueMap(command) => torque_map::run(&command),
         Command::View(args) => view::run(&args),

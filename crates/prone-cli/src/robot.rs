@@ -1,11 +1,14 @@
 //! `prone robot check`, and loading the robot for all commands.
 
+pub(crate) mod compile;
+
 use std::io::Write as _;
 use std::path::Path;
 
+use serde::Serialize;
 use serde_json::{Value, json};
 
-use prone_files::shipped;
+use prone_files::{compiled_robot, shipped};
 use prone_sim::{LoadedRobot, Regime, RobotFiles, World};
 use prone_study::robot_sheet::{self, ChainSheet, RobotSheet};
 
@@ -39,15 +42,42 @@ pub(crate) fn check(args: &RobotCheckArgs) -> Result<(), Failure> {
     for regime in [Regime::TORQUE_STUDY, Regime::LOCOMOTION] {
         World::new(&loaded, regime).map_err(Failure::input)?;
     }
-    let sheet = robot_sheet::of(loaded.robot()).map_err(Failure::input)?;
+    let checked = Checked {
+        sheet: robot_sheet::of(loaded.robot()).map_err(Failure::input)?,
+        compiled: compile::beside(&loaded).map(|compiled| Compiled {
+            fresh: compiled.is_ok(),
+            refused: compiled.err().map(|error| error.to_string()),
+        }),
+    };
     let mut out = std::io::stdout().lock();
     if args.json {
-        let text = serde_json::to_string_pretty(&sheet).map_err(Failure::work)?;
+        let text = serde_json::to_string_pretty(&checked).map_err(Failure::work)?;
         writeln!(out, "{text}")?;
         return Ok(());
     }
-    print(&sheet, &loaded.files().folder, &mut out)?;
+    print(&checked.sheet, &loaded.files().folder, &mut out)?;
+    if let Some(compiled) = &checked.compiled {
+        let file = compiled_robot::FILE_NAME;
+        let state = compiled.refused.as_deref().unwrap_or("fresh");
+        writeln!(out, "\n{file}: {state}")?;
+    }
+    writeln!(out, "\nvalid")?;
     Ok(())
+}
+
+/// What is said of a robot.
+#[derive(Serialize)]
+struct Checked {
+    #[serde(flatten)]
+    sheet: RobotSheet,
+    compiled: Option<Compiled>,
+}
+
+/// What is said of the compiled robot beside its sources.
+#[derive(Serialize)]
+struct Compiled {
+    fresh: bool,
+    refused: Option<String>,
 }
 
 fn print(sheet: &RobotSheet, folder: &str, out: &mut impl std::io::Write) -> std::io::Result<()> {
@@ -115,7 +145,7 @@ fn print(sheet: &RobotSheet, folder: &str, out: &mut impl std::io::Write) -> std
             outside.posture, outside.joint, outside.excess_deg
         )?;
     }
-    writeln!(out, "\nvalid")
+    Ok(())
 }
 
 fn values(chain: &ChainSheet) -> [f64; 8] {

@@ -1,9 +1,11 @@
-//! The text formats of prone: `robot.toml`, `family.toml`, gait files and scene files.
+//! The text formats of prone: `robot.toml`, `family.toml`, gait files, scene files and compiled
+//! robots.
 //!
 //! At this border names carry units (`span_mm`, `constant_deg`) and numbers are converted once;
 //! behind it everything is SI and radians. Every error names file, line and column. What ships
 //! with the program is embedded ([`shipped`]).
 
+pub mod compiled_robot;
 mod curve_table;
 pub mod cycle_file;
 pub mod defaults;

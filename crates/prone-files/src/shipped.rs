@@ -38,6 +38,8 @@ pub struct RobotSource {
     pub toml: &'static str,
     /// The MJCF model.
     pub mjcf: &'static str,
+    /// The robot compiled from them, see [`crate::compiled_robot`].
+    pub compiled: &'static str,
 }
 
 /// The NAO H25 V4, the robot where none is named.
@@ -46,6 +48,7 @@ pub const NAO: RobotSource = RobotSource {
     folder: "robots/nao/v4",
     toml: include_str!("../../../robots/nao/v4/robot.toml"),
     mjcf: include_str!("../../../robots/nao/v4/robot.xml"),
+    compiled: include_str!("../../../robots/nao/v4/robot.compiled.json"),
 };
 
 /// The families that ship; what the first says goes for robots that say nothing.

@@ -1,0 +1,94 @@
+//! `prone robot compile`: a robot for programs that have no engine, and whether there is one already.
+
+use std::io::{ErrorKind, Write as _};
+use std::path::{Path, PathBuf};
+
+use anyhow::anyhow;
+use serde_json::json;
+
+use prone_files::compiled_robot::{self, CompiledRobot, CompiledRobotError};
+use prone_sim::LoadedRobot;
+
+use crate::args::RobotCompileArgs;
+use crate::{Failure, robot, table_file};
+
+pub(crate) fn run(args: &RobotCompileArgs) -> Result<(), Failure> {
+    let loaded = robot::load(args.robot.as_deref())?;
+    let out = place(args, &loaded)?;
+    let engine = prone_sim::engine_version();
+    let compiled =
+        CompiledRobot::new(loaded.robot(), loaded.files(), engine).map_err(|violation| {
+            let folder = &loaded.files().folder;
+            Failure::Input(anyhow!("{folder} cannot be compiled: {violation}"))
+        })?;
+    let text = compiled.text();
+    table_file::write(&out, text.as_bytes())
+        .map_err(|error| Failure::Input(anyhow!("cannot write {}: {error}", out.display())))?;
+    say(args, &out, &compiled)
+}
+
+/// The compiled robot beside the sources of a robot; nothing where there is none, or where there are
+/// no files: the one that ships is fresh, and a test sees to that.
+pub(crate) fn beside(loaded: &LoadedRobot) -> Option<Result<CompiledRobot, CompiledRobotError>> {
+    let files = loaded.files();
+    if files.read.is_empty() {
+        return None;
+    }
+    match CompiledRobot::read_beside(files) {
+        Err(CompiledRobotError::Read { source, .. }) if source.kind() == ErrorKind::NotFound => {
+            None
+        }
+        read => Some(read),
+    }
+}
+
+/// Where the file goes, which is none of those that were read.
+fn place(args: &RobotCompileArgs, loaded: &LoadedRobot) -> Result<PathBuf, Failure> {
+    let files = loaded.files();
+    let out = match &args.out {
+        Some(out) => out.clone(),
+        None if files.read.is_empty() => {
+            let robot = &loaded.robot().name;
+            return Err(Failure::Input(anyhow!(
+                "the {robot} ships with prone and has no folder here: say where the file goes with --out"
+            )));
+        }
+        None => Path::new(&files.folder).join(compiled_robot::FILE_NAME),
+    };
+    match table_file::same_file(&out, &files.read) {
+        None => Ok(out),
+        Some(input) => Err(Failure::Input(anyhow!(
+            "{} would overwrite {}, which was read",
+            out.display(),
+            input.display()
+        ))),
+    }
+}
+
+fn say(args: &RobotCompileArgs, file: &Path, compiled: &CompiledRobot) -> Result<(), Failure> {
+    let mut out = std::io::stdout().lock();
+    let (name, hash, engine) = (
+        &compiled.robot().name,
+        compiled.sources_hash(),
+        compiled.engine(),
+    );
+    if args.json {
+        let said = json!({
+            "file": file,
+            "robot": name,
+            "family": compiled.version().map(|it| &it.family),
+            "version": compiled.version().map(|it| &it.version),
+            "sources_sha256": hash,
+            "engine": engine,
+        });
+        let text = serde_json::to_string_pretty(&said).map_err(Failure::work)?;
+        writeln!(out, "{text}")?;
+    } else {
+        writeln!(
+            out,
+            "{name}, compiled by {engine} from sources with the hash {hash}: {}",
+            file.display()
+        )?;
+    }
+    Ok(())
+}
