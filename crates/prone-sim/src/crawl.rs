@@ -12,7 +12,7 @@ mod limbs;
 mod measure;
 mod touch;
 
-pub use effort::{Effort, JointEffort};
+pub use effort::{Effort, JointEffort, MotorStep};
 pub use limbs::{LimbsError, check_limbs};
 pub use measure::{Advance, CycleRow, Row};
 pub use touch::Touch;

@@ -1,6 +1,6 @@
 //! What the motors do in a crawl.
 
-use prone::robot::{JointId, Robot};
+use prone::robot::{Joint, JointId, Robot};
 
 /// What the motors of a robot did.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,7 +29,41 @@ pub struct JointEffort {
     pub over_nominal: f64,
 }
 
+/// What one motor does in one engine step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MotorStep {
+    /// **Actuator torque**, after the effort limit, N·m.
+    pub torque: f64,
+    /// **Demanded torque**, before the effort limit, N·m.
+    pub demanded: f64,
+    /// Speed of the joint about the same axis, rad/s.
+    pub speed: f64,
+    /// Length of the step, s.
+    pub seconds: f64,
+}
+
 impl JointEffort {
+    /// Adds a step of the motor of a joint, whose limits say what is too much.
+    pub fn add_step(&mut self, step: &MotorStep, joint: &Joint) {
+        let MotorStep {
+            torque,
+            demanded,
+            speed,
+            seconds,
+        } = *step;
+        let demanded = demanded.abs();
+        self.square += torque * torque * seconds;
+        self.work += (torque * speed).max(0.0) * seconds;
+        self.peak = self.peak.max(torque.abs());
+        self.demanded_peak = self.demanded_peak.max(demanded);
+        if demanded > joint.effort_limit {
+            self.saturated += seconds;
+        }
+        if joint.motor.is_some_and(|motor| demanded > motor.nominal) {
+            self.over_nominal += seconds;
+        }
+    }
+
     fn add(&mut self, other: &Self) {
         self.square += other.square;
         self.work += other.work;
@@ -82,3 +116,6 @@ impl Effort {
             )
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -6,7 +6,7 @@ use prone::gait::cycle::CheckedCycle;
 use prone::robot::{BodyPart, JointAngles, Tops};
 use prone::steering::Bearing;
 
-use super::effort::Effort;
+use super::effort::{Effort, MotorStep};
 use super::touch::{Touch, Touches};
 use super::{Detail, ROW_STEP};
 use crate::simulation::{ContactForce, Simulation, Snapshot};
@@ -109,7 +109,6 @@ pub(super) struct Meter {
     snapshots: Vec<Snapshot>,
     detail: Detail,
     parts: Vec<BodyPart>,
-    limits: Vec<(f64, Option<f64>)>,
     begin: Option<f64>,
     cycle: Option<CycleRow>,
     loads: [BodyLoad; 2],
@@ -169,10 +168,6 @@ impl Means {
 impl Meter {
     pub(super) fn new(world: &World, detail: Detail) -> Self {
         let robot = world.robot();
-        let limits = robot
-            .joints
-            .iter()
-            .map(|joint| (joint.effort_limit, joint.motor.map(|motor| motor.nominal)));
         Self {
             record: Record {
                 cycles: Vec::new(),
@@ -185,7 +180,6 @@ impl Meter {
             snapshots: Vec::new(),
             detail,
             parts: BodyPart::of_shapes(robot),
-            limits: limits.collect(),
             begin: None,
             cycle: None,
             loads: [BodyLoad::default(); 2],
@@ -239,28 +233,15 @@ impl Meter {
         cycle.effort.seconds += dt;
         let since = simulation.time() - self.begin.unwrap_or_default();
         self.touches.step(simulation, since);
-        let torques = simulation
-            .actuator_torque()
-            .iter()
-            .zip(simulation.joint_speeds());
-        let joints = cycle
-            .effort
-            .joints
-            .iter_mut()
-            .zip(torques)
-            .zip(&self.limits);
-        for (index, ((joint, (&torque, &speed)), &(limit, nominal))) in joints.enumerate() {
-            let demanded = simulation.demanded_torque()[index].abs();
-            joint.square += torque * torque * dt;
-            joint.work += (torque * speed).max(0.0) * dt;
-            joint.peak = joint.peak.max(torque.abs());
-            joint.demanded_peak = joint.demanded_peak.max(demanded);
-            if demanded > limit {
-                joint.saturated += dt;
-            }
-            if nominal.is_some_and(|nominal| demanded > nominal) {
-                joint.over_nominal += dt;
-            }
+        let joints = simulation.robot().joints.iter();
+        for (index, (effort, joint)) in cycle.effort.joints.iter_mut().zip(joints).enumerate() {
+            let step = MotorStep {
+                torque: simulation.actuator_torque()[index],
+                demanded: simulation.demanded_torque()[index],
+                speed: simulation.joint_speeds()[index],
+                seconds: dt,
+            };
+            effort.add_step(&step, joint);
         }
         let contact = simulation.ground_contact();
         self.loads[usize::from(command.1 == Stage::Recovery)].add(contact);

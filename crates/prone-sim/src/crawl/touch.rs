@@ -27,10 +27,30 @@ pub struct Touch {
 pub(super) struct Touches {
     /// By body, then by obstacle.
     met: Vec<Touch>,
-    /// Of each touch: when it was last seen, in engine steps, and its force in that step.
-    seen: Vec<(usize, f64)>,
+    /// When each touch was last seen.
+    seen: Vec<Option<Seen>>,
     /// Which obstacles count.
     walls: Vec<bool>,
+}
+
+/// When a touch was last seen.
+#[derive(Debug, Clone, Copy)]
+struct Seen {
+    /// In which engine step.
+    step: usize,
+    /// Normal force in it so far, N.
+    force: f64,
+}
+
+/// When something is seen.
+#[derive(Debug, Clone, Copy)]
+struct Instant {
+    /// In which engine step.
+    step: usize,
+    /// Since the first pull began, s.
+    time: f64,
+    /// Length of the step, s.
+    seconds: f64,
 }
 
 impl Touches {
@@ -47,44 +67,57 @@ impl Touches {
         if !self.walls.contains(&true) {
             return;
         }
-        let step = simulation.steps();
         for contact in simulation.obstacle_contacts() {
-            if !self.walls[contact.obstacle] {
-                continue;
+            if self.walls[contact.obstacle] {
+                let now = Instant {
+                    step: simulation.steps(),
+                    time,
+                    seconds: simulation.time_step(),
+                };
+                self.meet(contact.body, contact.obstacle, contact.normal, now);
             }
-            let key = (contact.body, contact.obstacle);
-            let place = self
-                .met
-                .binary_search_by_key(&key, |touch| (touch.body, touch.obstacle));
-            let index = place.unwrap_or_else(|index| {
-                self.met.insert(
-                    index,
-                    Touch {
-                        body: contact.body,
-                        obstacle: contact.obstacle,
-                        count: 0,
-                        first: time,
-                        seconds: 0.0,
-                        peak: 0.0,
-                    },
-                );
-                self.seen.insert(index, (0, 0.0));
-                index
-            });
-            let (touch, seen) = (&mut self.met[index], &mut self.seen[index]);
-            if seen.0 != step {
-                touch.seconds += simulation.time_step();
-                if seen.0 + 1 != step {
-                    touch.count += 1;
-                }
-                *seen = (step, 0.0);
-            }
-            seen.1 += contact.normal;
-            touch.peak = touch.peak.max(seen.1);
         }
+    }
+
+    /// A contact with a normal force, N; one of several, where a part meets an obstacle in several
+    /// places in the same step.
+    fn meet(&mut self, body: BodyId, obstacle: usize, normal: f64, now: Instant) {
+        let place = self
+            .met
+            .binary_search_by_key(&(body, obstacle), |touch| (touch.body, touch.obstacle));
+        let index = place.unwrap_or_else(|index| {
+            let touch = Touch {
+                body,
+                obstacle,
+                count: 0,
+                first: now.time,
+                seconds: 0.0,
+                peak: 0.0,
+            };
+            self.met.insert(index, touch);
+            self.seen.insert(index, None);
+            index
+        });
+        let (touch, seen) = (&mut self.met[index], &mut self.seen[index]);
+        let already = seen.filter(|seen| seen.step == now.step);
+        if already.is_none() {
+            touch.seconds += now.seconds;
+            if seen.is_none_or(|seen| seen.step + 1 != now.step) {
+                touch.count += 1;
+            }
+        }
+        let force = already.map_or(0.0, |seen| seen.force) + normal;
+        touch.peak = touch.peak.max(force);
+        *seen = Some(Seen {
+            step: now.step,
+            force,
+        });
     }
 
     pub(super) fn finish(self) -> Vec<Touch> {
         self.met
     }
 }
+
+#[cfg(test)]
+mod tests;
