@@ -96,7 +96,7 @@ pub enum CrawlerError {
         /// The cycle's name.
         gait: String,
         /// What is wrong.
-        source: CycleError,
+        source: Box<CycleError>,
     },
     /// A cycle's mapping does not fit the robot.
     #[error("in cycle {cycle} ({gait}): {source}")]
@@ -465,7 +465,7 @@ impl<P: Pilot> Crawler<P> {
                 Course::recovery(&self.planned, next).map_err(|source| CrawlerError::Cycle {
                     cycle: self.done + 2,
                     gait: next.checked.name().to_owned(),
-                    source,
+                    source: Box::new(source),
                 })?
             }
         };

@@ -23,7 +23,7 @@ pub struct FirstPose {
 /// Why a cycle has no plan.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum PlanError {
-    Cycle(CycleError),
+    Cycle(Box<CycleError>),
     Mapping(MappingError),
 }
 
@@ -38,7 +38,7 @@ impl Planned {
         let pull = &cycle.pull;
         Ok(Self {
             checked: CheckedCycle::plan(robot, stops, cycle, turn, scale)
-                .map_err(PlanError::Cycle)?,
+                .map_err(|error| PlanError::Cycle(Box::new(error)))?,
             mapping: Mapping::new(robot, pull.mapping, pull.arm).map_err(PlanError::Mapping)?,
         })
     }
