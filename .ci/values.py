@@ -23,7 +23,7 @@ sys.dont_write_bytecode = True
 
 from regression.cases import all_cases  # noqa: E402
 from regression.comparison import compare  # noqa: E402
-from regression.recording import record  # noqa: E402
+from regression.recording import ROBOT, record  # noqa: E402
 
 
 def main():
@@ -49,6 +49,12 @@ def arguments():
     recording.add_argument("dir", type=Path, help="made; must be empty")
     recording.add_argument("--threads", type=int, help="worker threads of each run [default: the program's]")
     recording.add_argument("--jobs", type=int, default=os.cpu_count(), help="cases at a time [default: cores]")
+    recording.add_argument(
+        "--robot",
+        type=Path,
+        default=ROBOT,
+        help="robot folder that the program can read [default: robots/nao of this checkout]",
+    )
     comparing = actions.add_parser("compare", help="compare two recordings")
     comparing.add_argument("dir_a", type=Path, help="the recording that is right")
     comparing.add_argument("dir_b", type=Path)
@@ -72,7 +78,7 @@ def with_needed(cases, wanted):
 def recorded(args, cases):
     if not cases:
         sys.exit(f"no case matches {args.only}")
-    problems = record(args.program, args.dir, cases, args.threads, args.jobs)
+    problems = record(args.program, args.dir, cases, args.threads, args.jobs, args.robot)
     for name, problem in problems.items():
         print(f"problem: {name}: {problem}", file=sys.stderr)
     print(f"{len(cases)} cases recorded in {args.dir}, {len(problems)} not as meant")

@@ -42,7 +42,7 @@ class NotRecorded(Exception):
     """A case that did not run as it is meant to."""
 
 
-def record(program, home, cases, threads, jobs):
+def record(program, home, cases, threads, jobs, robot):
     """Records the cases in an empty folder. Returns what did not go as meant, by case."""
     program = Path(program).resolve()
     if not program.is_file():
@@ -51,7 +51,7 @@ def record(program, home, cases, threads, jobs):
         raise SystemExit(f"{home} is not empty: a recording is not mixed with an earlier one")
     home.mkdir(parents=True, exist_ok=True)
     shutil.copytree(GIVEN, home / INPUTS)
-    shutil.copytree(ROBOT, home / INPUTS / "nao")
+    shutil.copytree(robot, home / INPUTS / "nao")
 
     done = {}
     seconds, problems = {}, {}

@@ -2,6 +2,7 @@
 
 mod crawl;
 mod export;
+mod named;
 pub(crate) mod optimize;
 pub(crate) mod passage;
 pub(crate) mod pricing;
@@ -9,14 +10,15 @@ mod report;
 mod torque_map;
 mod view;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Parser, Subcommand};
 
 use prone::gait::PhaseDuration;
 
-pub(crate) use crawl::{CrawlCommand, CrawlRunArgs, ServoName};
+pub(crate) use crawl::{CrawlCommand, CrawlRunArgs, ServoName, TimeStepName};
 pub(crate) use export::{ExportArgs, Format, ViewName};
+pub(crate) use named::{GaitArg, RobotArg};
 pub(crate) use report::ReportArgs;
 pub(crate) use torque_map::{BuildArgs, CompareArgs, PlotArgs, SourceArg, TorqueMapCommand};
 pub(crate) use view::ViewArgs;
@@ -36,7 +38,7 @@ Examples:
                                           search a better gait
   prone cost nominal --objective heat --source dynamics
                                           price a gait
-  prone crawl run --gait low-175 --ceiling-mm 178 --length-m 1.5 --until-past
+  prone crawl run low-175 --ceiling-mm 178 --length-m 1.5 --until-past
                                           crawl under a plate
   prone crawl under --ceiling-mm 180      whether the robot gets under it, how, and how fast
   prone view out/run                      replay a recorded run in the browser
@@ -127,9 +129,8 @@ pub(crate) struct ReproduceArgs {
     /// Worker threads [default: all cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
-    /// Robot folder with robot.toml and its model [default: the NAO that ships with prone]
-    #[arg(long, value_name = "DIR")]
-    pub(crate) robot: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) robot: RobotArg,
     /// Print the figures of summary.json instead of a table
     #[arg(long)]
     pub(crate) json: bool,
@@ -143,9 +144,8 @@ Examples:
   prone gait show low-175                 a whole cycle: its pull and the way back
   prone gait show optimal --json | jq .clamps")]
 pub(crate) struct GaitShowArgs {
-    /// A gait or a cycle that ships with prone (nominal, low-175, …), or a file of either
-    #[arg(value_name = "GAIT")]
-    pub(crate) gait: String,
+    #[command(flatten)]
+    pub(crate) gait: GaitArg,
     /// Duration of the pull, s [default: 5, or a cycle's own]
     #[arg(
         long,
@@ -157,9 +157,8 @@ pub(crate) struct GaitShowArgs {
     /// Write all 101 instants to a CSV file
     #[arg(long, value_name = "FILE")]
     pub(crate) csv: Option<PathBuf>,
-    /// Robot folder with robot.toml and its model [default: the NAO that ships with prone]
-    #[arg(long, value_name = "DIR")]
-    pub(crate) robot: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) robot: RobotArg,
     /// Print everything as JSON
     #[arg(long)]
     pub(crate) json: bool,
@@ -171,12 +170,21 @@ Examples:
   prone robot check
   prone robot check robots/nao --json")]
 pub(crate) struct RobotCheckArgs {
-    /// Robot folder with robot.toml and its model [default: the NAO that ships with prone]
-    #[arg(value_name = "DIR")]
-    pub(crate) robot: Option<PathBuf>,
+    /// Robot, in place of --robot
+    #[arg(value_name = "ROBOT", conflicts_with = "robot")]
+    named: Option<PathBuf>,
+    #[command(flatten)]
+    robot: RobotArg,
     /// Print everything as JSON
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+impl RobotCheckArgs {
+    /// As typed, where one is named.
+    pub(crate) fn robot(&self) -> Option<&Path> {
+        self.named.as_deref().or(self.robot.name())
+    }
 }
 
 #[derive(Debug, clap::Args)]

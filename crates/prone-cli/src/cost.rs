@@ -11,8 +11,8 @@ use crate::args::optimize::CostArgs;
 use crate::pricing::Pricing;
 
 pub(crate) fn run(args: &CostArgs) -> Result<(), Failure> {
-    let robot = crate::robot::load(args.pricing.robot.as_deref())?;
-    let gait = crate::gait::find(&robot.files().gaits, &args.gait)?;
+    let robot = crate::robot::load(args.pricing.robot.name())?;
+    let gait = crate::gait::find(&robot.files().gaits, args.gait.name())?;
     let pricing = Pricing::new(&args.pricing, robot, Some(&gait))?;
     let graded = matches!(pricing.aim, Aim::Graded(_));
     if graded && (gait.mapping, gait.arm) != (pricing.base.mapping, pricing.base.arm) {

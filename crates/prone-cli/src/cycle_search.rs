@@ -60,7 +60,7 @@ struct Job<'a> {
 
 /// `prone crawl frontier`.
 pub(crate) fn frontier(args: &FrontierArgs) -> Result<(), Failure> {
-    let robot = crate::robot::load(args.robot.as_deref())?;
+    let robot = crate::robot::load(args.robot.name())?;
     let defaults = robot.files().defaults().map_err(Failure::input)?.cycle;
     let from = names(&args.from, &defaults);
     let cycles = passage::cycles(&robot, &from)?;
@@ -68,7 +68,12 @@ pub(crate) fn frontier(args: &FrontierArgs) -> Result<(), Failure> {
         AgainstName::Advance => CycleObjective::Advance,
         AgainstName::Heat => CycleObjective::Heat,
     };
-    let settings = settings_for(objective, steered(args.steerable), &robot)?;
+    let wanted = if args.steerable {
+        Wanted::Steerable
+    } else {
+        Wanted::All
+    };
+    let settings = settings_for(objective, wanted, &robot)?;
     let mut jobs: Vec<Job<'_>> = Vec::with_capacity(args.ceilings_mm.len());
     for &mm in &args.ceilings_mm {
         let same = |job: &Job<'_>| {
@@ -103,7 +108,7 @@ pub(crate) fn frontier(args: &FrontierArgs) -> Result<(), Failure> {
         objective,
         margin_mm: args.margin_mm,
         jobs,
-        confirmation: confirmation_for(objective, steered(args.steerable), &robot)?,
+        confirmation: confirmation_for(objective, wanted, &robot)?,
         steering: settings::for_steering_confirmation(&robot).map_err(Failure::input)?,
         compared: passage::cycles(&robot, &defaults.compared)?,
         seed: args.seed,
@@ -132,11 +137,16 @@ pub(crate) fn optimize(args: &OptimizeArgs) -> Result<(), Failure> {
             )));
         }
     };
-    let robot = crate::robot::load(args.pricing.robot.as_deref())?;
+    let robot = crate::robot::load(args.pricing.robot.name())?;
     let defaults = robot.files().defaults().map_err(Failure::input)?.cycle;
     let from = names(args.pricing.from.as_slice(), &defaults);
     let cycles = passage::cycles(&robot, &from)?;
-    let settings = settings_for(objective, steered(args.steerable), &robot)?;
+    let wanted = if args.steerable {
+        Wanted::Steerable
+    } else {
+        Wanted::All
+    };
+    let settings = settings_for(objective, wanted, &robot)?;
     let height = args.ceiling_mm.map_or(f64::INFINITY, |mm| mm * 1e-3);
     if let Some(mm) = args.ceiling_mm {
         refuse_too_low(&robot, "--ceiling-mm", mm, height)?;
@@ -179,7 +189,7 @@ pub(crate) fn optimize(args: &OptimizeArgs) -> Result<(), Failure> {
         objective,
         margin_mm: 0.0,
         jobs,
-        confirmation: confirmation_for(objective, steered(args.steerable), &robot)?,
+        confirmation: confirmation_for(objective, wanted, &robot)?,
         steering: settings::for_steering_confirmation(&robot).map_err(Failure::input)?,
         compared: passage::cycles(&robot, &defaults.compared)?,
         seed: args.seed,
@@ -286,21 +296,18 @@ fn refuse_too_low(
     }
 }
 
-/// Whether a cycle has to be steered.
+/// Which cycles are searched.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Steered {
-    Yes,
-    No,
-}
-
-/// As it was typed.
-const fn steered(flag: bool) -> Steered {
-    if flag { Steered::Yes } else { Steered::No }
+enum Wanted {
+    /// Any.
+    All,
+    /// Those that can be steered.
+    Steerable,
 }
 
 fn settings_for(
     objective: CycleObjective,
-    steered: Steered,
+    wanted: Wanted,
     robot: &LoadedRobot,
 ) -> Result<Vec<Setting>, Failure> {
     let settings = match objective {
@@ -308,7 +315,7 @@ fn settings_for(
         CycleObjective::Advance | CycleObjective::Speed => settings::for_advance(robot),
     };
     let mut settings = settings.map_err(Failure::input)?;
-    if steered == Steered::Yes {
+    if wanted == Wanted::Steerable {
         settings.extend(settings::for_steering(robot).map_err(Failure::input)?);
     }
     Ok(settings)
@@ -316,7 +323,7 @@ fn settings_for(
 
 fn confirmation_for(
     objective: CycleObjective,
-    steered: Steered,
+    wanted: Wanted,
     robot: &LoadedRobot,
 ) -> Result<Vec<Setting>, Failure> {
     let settings = match objective {
@@ -324,7 +331,7 @@ fn confirmation_for(
         CycleObjective::Advance | CycleObjective::Speed => settings::for_confirmation(robot),
     };
     let mut settings = settings.map_err(Failure::input)?;
-    if steered == Steered::Yes {
+    if wanted == Wanted::Steerable {
         let more = settings::for_steering_confirmation(robot).map_err(Failure::input)?;
         settings.extend(more);
     }

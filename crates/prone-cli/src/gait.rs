@@ -129,13 +129,14 @@ pub(crate) fn refused(gait: &GaitSource, error: &CycleError) -> Failure {
 const DURATION_S: f64 = 5.0;
 
 pub(crate) fn show(args: &GaitShowArgs) -> Result<(), Failure> {
-    let loaded = crate::robot::load(args.robot.as_deref())?;
+    let loaded = crate::robot::load(args.robot.name())?;
     let gaits = &loaded.files().gaits;
-    let named = gaits.find(&args.gait).map_err(Failure::input)?;
-    if named.map_or_else(|| is_cycle_file(&args.gait), |gait| gait.is_cycle()) {
+    let name = args.gait.name();
+    let named = gaits.find(name).map_err(Failure::input)?;
+    if named.map_or_else(|| is_cycle_file(name), |gait| gait.is_cycle()) {
         return cycle::show(args, &loaded);
     }
-    let gait = find(gaits, &args.gait)?;
+    let gait = find(gaits, name)?;
     let duration = match args.duration {
         Some(duration) => duration,
         None => PhaseDuration::new(DURATION_S).map_err(Failure::input)?,
@@ -166,8 +167,9 @@ fn is_cycle_file(name: &str) -> bool {
 /// The files that were read.
 fn inputs(args: &GaitShowArgs, loaded: &LoadedRobot) -> Result<Vec<PathBuf>, Failure> {
     let files = loaded.files();
-    let named = files.gaits.find(&args.gait).map_err(Failure::input)?;
-    let gait = named.map_or_else(|| Some(PathBuf::from(&args.gait)), |gait| gait.read);
+    let name = args.gait.name();
+    let named = files.gaits.find(name).map_err(Failure::input)?;
+    let gait = named.map_or_else(|| Some(PathBuf::from(name)), |gait| gait.read);
     Ok(gait.into_iter().chain(files.read.iter().cloned()).collect())
 }
 

@@ -36,7 +36,7 @@ pub(crate) fn run(args: &OptimizeArgs) -> Result<(), Failure> {
         return crate::cycle_search::optimize(args);
     }
     refuse_cycle_options(args)?;
-    let robot = crate::robot::load(args.pricing.robot.as_deref())?;
+    let robot = crate::robot::load(args.pricing.robot.name())?;
     let pricing = Pricing::new(&args.pricing, robot, None)?;
     check_form(args, &pricing)?;
     check_name(args, &pricing)?;

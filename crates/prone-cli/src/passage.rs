@@ -48,8 +48,8 @@ fn sources(robot: &LoadedRobot, names: &[String]) -> Result<Vec<(Cycle, &'static
 }
 
 pub(crate) fn run(args: &UnderArgs) -> Result<(), Failure> {
-    let robot = crate::robot::load(args.robot.as_deref())?;
-    let sources = sources(&robot, &args.gait)?;
+    let robot = crate::robot::load(args.robot.name())?;
+    let sources = sources(&robot, args.gaits.names())?;
     let settings = settings::for_advance(&robot).map_err(Failure::input)?;
     let (ceiling, margin) = (args.ceiling_mm * 1e-3, args.margin_mm * 1e-3);
     if margin >= ceiling {
@@ -94,7 +94,7 @@ pub(crate) fn run(args: &UnderArgs) -> Result<(), Failure> {
         let text = serde_json::to_string_pretty(&passage).map_err(Failure::work)?;
         writeln!(out, "{text}")?;
     } else {
-        print(&passage, args.seed.is_none(), &mut out)?;
+        print(&passage, args.seed, &mut out)?;
     }
     Ok(())
 }
@@ -152,7 +152,7 @@ fn search(
 
 fn print(
     passage: &Passage,
-    unsearched: bool,
+    seed: Option<u64>,
     out: &mut impl std::io::Write,
 ) -> std::io::Result<()> {
     let ceiling = passage.ceiling_mm;
@@ -183,7 +183,7 @@ fn print(
     for (gait, reason) in &passage.refused {
         writeln!(out, "    {gait}: cannot be crawled: {reason}")?;
     }
-    if unsearched && passage.may_be_searched() {
+    if seed.is_none() && passage.may_be_searched() {
         writeln!(out, "  --seed 1 searches for a lower one")?;
     }
     Ok(())

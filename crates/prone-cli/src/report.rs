@@ -16,45 +16,74 @@ use crate::{Failure, interrupt, record_folder, table_file};
 
 pub(crate) fn run(args: &ReportArgs) -> Result<(), Failure> {
     let sources = sources(&args.runs)?;
-    let page_alone = args.out.extension() == Some(OsStr::new("html"));
+    let place = Place::of(&args.out);
     for source in sources.iter().filter(|source| source.folder.is_dir()) {
-        if page_alone {
-            record_folder::check_place(&args.out, &source.folder)?;
-        } else {
-            refuse_overlap(&args.out, &source.folder)?;
+        match place {
+            Place::Page(file) => record_folder::check_place(file, &source.folder)?,
+            Place::Folder(folder) => refuse_overlap(folder, &source.folder)?,
         }
     }
     interrupt::listen()?;
-    if page_alone {
-        let place = args.out.display();
-        table_file::check_place(&args.out)
-            .map_err(|error| Failure::Input(anyhow!("cannot write {place}: {error}")))?;
-    } else {
-        output::check(&args.out).map_err(Failure::input)?;
+    match place {
+        Place::Page(file) => {
+            table_file::check_place(file).map_err(|error| cannot_write(file, &error))?;
+        }
+        Place::Folder(folder) => output::check(folder).map_err(Failure::input)?,
     }
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(args.threads.map_or(0, usize::from))
         .build()
         .map_err(|error| Failure::Work(anyhow!("cannot start worker threads: {error}")))?;
     let report = pool.install(|| Report::of(&sources)).map_err(failure)?;
-    if page_alone {
-        let place = args.out.display();
-        interrupt::publish(|| {
-            table_file::write(&args.out, report.html.as_bytes())
-                .map_err(|error| Failure::Input(anyhow!("cannot write {place}: {error}")))
-        })?;
-    } else {
-        let program = Program {
-            version: env!("CARGO_PKG_VERSION").into(),
-            commit: env!("PRONE_COMMIT").into(),
-        };
-        let artefacts = pool
-            .install(|| report.files(&program))
-            .map_err(Failure::work)?;
-        interrupt::publish(|| output::publish(&args.out, &artefacts).map_err(Failure::work))?;
+    match place {
+        Place::Page(file) => interrupt::publish(|| {
+            table_file::write(file, report.html.as_bytes())
+                .map_err(|error| cannot_write(file, &error))
+        })?,
+        Place::Folder(folder) => {
+            let program = Program {
+                version: env!("CARGO_PKG_VERSION").into(),
+                commit: env!("PRONE_COMMIT").into(),
+            };
+            let artefacts = pool
+                .install(|| report.files(&program))
+                .map_err(Failure::work)?;
+            interrupt::publish(|| output::publish(folder, &artefacts).map_err(Failure::work))?;
+        }
     }
-    print(args, &report, page_alone)?;
+    print(args, &report, &place.page())?;
     record_folder::say_missing(&report.numbers.shortfalls)
+}
+
+/// Where a report goes.
+#[derive(Clone, Copy)]
+enum Place<'a> {
+    /// The page alone, into this file.
+    Page(&'a Path),
+    /// Page, figures and numbers, into this folder.
+    Folder(&'a Path),
+}
+
+impl<'a> Place<'a> {
+    fn of(out: &'a Path) -> Self {
+        if out.extension() == Some(OsStr::new("html")) {
+            Self::Page(out)
+        } else {
+            Self::Folder(out)
+        }
+    }
+
+    /// The page's file.
+    fn page(self) -> PathBuf {
+        match self {
+            Self::Page(file) => file.to_owned(),
+            Self::Folder(folder) => folder.join(PAGE_FILE),
+        }
+    }
+}
+
+fn cannot_write(file: &Path, error: &std::io::Error) -> Failure {
+    Failure::Input(anyhow!("cannot write {}: {error}", file.display()))
 }
 
 /// The folders under the names that were typed, each once.
@@ -130,7 +159,7 @@ fn failure(error: ReportError) -> Failure {
     }
 }
 
-fn print(args: &ReportArgs, report: &Report, page_alone: bool) -> Result<(), Failure> {
+fn print(args: &ReportArgs, report: &Report, page: &Path) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
     if args.json {
         let text = serde_json::to_string_pretty(&report.numbers).map_err(Failure::work)?;
@@ -157,11 +186,6 @@ fn print(args: &ReportArgs, report: &Report, page_alone: bool) -> Result<(), Fai
             .unwrap_or("a robot on the wire, not driven yet");
         writeln!(out, "  no figure {}: {made_by}", missing.number)?;
     }
-    let page = if page_alone {
-        args.out.clone()
-    } else {
-        args.out.join(PAGE_FILE)
-    };
     writeln!(out, "\nreport: {}", page.display())?;
     Ok(())
 }

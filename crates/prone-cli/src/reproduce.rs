@@ -33,7 +33,7 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<(), Failure> {
         &args.durations,
     )
     .map_err(Failure::input)?;
-    let robot = crate::robot::load(args.robot.as_deref())?;
+    let robot = crate::robot::load(args.robot.name())?;
     let world = World::new(&robot, Regime::TORQUE_STUDY).map_err(Failure::input)?;
     plan.check(&world).map_err(Failure::input)?;
     let table = table_study(world.robot())?;

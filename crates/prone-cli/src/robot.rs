@@ -38,7 +38,7 @@ pub(crate) fn said(robot: &LoadedRobot) -> Value {
 }
 
 pub(crate) fn check(args: &RobotCheckArgs) -> Result<(), Failure> {
-    let loaded = load(args.robot.as_deref())?;
+    let loaded = load(args.robot())?;
     for regime in [Regime::TORQUE_STUDY, Regime::LOCOMOTION] {
         World::new(&loaded, regime).map_err(Failure::input)?;
     }

@@ -6,6 +6,7 @@ use clap::{Subcommand, ValueEnum};
 
 use prone::gait::cycle::TimeScale;
 
+use super::named::{GaitArg, RobotArg};
 use super::passage::{FrontierArgs, UnderArgs};
 
 #[derive(Debug, Subcommand)]
@@ -19,13 +20,17 @@ pub(crate) enum CrawlCommand {
 }
 
 #[derive(Debug, clap::Args)]
+#[command(mut_arg("argument", |arg| {
+    arg.help("Cycle: a name that ships with prone (low-175, thesis-nominal, …), or a file")
+}))]
+#[command(mut_arg("gait", |arg| arg.help("Cycle, in place of the argument")))]
 #[command(after_help = "\
 Examples:
-  prone crawl run --gait low-175
-  prone crawl run --gait low-175 --ceiling-mm 178 --length-m 1.5 --until-past --heading-hold
-  prone crawl run --gait low-175 --turn-deg-per-cycle 12 --cycles 10 --json | jq .yaw_deg
-  prone crawl run --gait thesis-nominal --scene table --cycles 25 --record out/table
-  prone crawl run --gait hip-10 --uphill low-175 --scene ramp --seed 1 --cycles 20
+  prone crawl run low-175
+  prone crawl run low-175 --ceiling-mm 178 --length-m 1.5 --until-past --heading-hold
+  prone crawl run low-175 --turn-deg-per-cycle 12 --cycles 10 --json | jq .yaw_deg
+  prone crawl run thesis-nominal --scene table --cycles 25 --record out/table
+  prone crawl run hip-10 --uphill low-175 --scene ramp --seed 1 --cycles 20
 
 Contact regime `locomotion`: friction 0.7 where nothing else is said, the maker's effort and joint
 limits on. The robot starts with its foremost point at x = 0; a plate of --ceiling-mm begins 50 mm
@@ -33,10 +38,9 @@ ahead. The record folder appears when all is done, and replaces an earlier resul
 its files but timing.json are the same, byte for byte, for the same input, on any number of
 threads. After Ctrl-C, at once, nothing is written.")]
 pub(crate) struct CrawlRunArgs {
-    /// A cycle that ships with prone (thesis-nominal, low-175, …) or a cycle file
-    #[arg(long, value_name = "GAIT")]
-    pub(crate) gait: String,
-    /// Crawl this cycle in place of --gait where the robot feels that it goes uphill, more than 1.5°
+    #[command(flatten)]
+    pub(crate) gait: GaitArg,
+    /// Crawl this cycle instead where the robot feels that it goes uphill, more than 1.5°
     /// by its inertial unit, whose noise --seed draws
     #[arg(long, value_name = "GAIT", requires = "seed")]
     pub(crate) uphill: Option<String>,
@@ -108,11 +112,10 @@ pub(crate) struct CrawlRunArgs {
     #[arg(long, value_enum, default_value = "soft")]
     pub(crate) servo: ServoName,
     /// Length of one engine step, ms
-    #[arg(long, value_name = "MS", default_value = "2.5", value_parser = ["2.5", "1"])]
-    pub(crate) time_step_ms: String,
-    /// Robot folder with robot.toml and its model [default: the NAO that ships with prone]
-    #[arg(long, value_name = "DIR")]
-    pub(crate) robot: Option<PathBuf>,
+    #[arg(long, value_enum, value_name = "MS", default_value = "2.5")]
+    pub(crate) time_step_ms: TimeStepName,
+    #[command(flatten)]
+    pub(crate) robot: RobotArg,
     /// Record folder; made, or replaced if it holds an earlier result
     #[arg(long, value_name = "DIR")]
     pub(crate) record: Option<PathBuf>,
@@ -131,6 +134,16 @@ pub(crate) enum ServoName {
     Soft,
     /// 400 N·m/rad on every joint
     Stiff,
+}
+
+/// How long an engine step lasts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum TimeStepName {
+    // Without documentation, which would make the help of all options longer.
+    #[value(name = "2.5")]
+    Usual,
+    #[value(name = "1")]
+    Fine,
 }
 
 /// Largest calibration error, degrees: beyond it a robot is broken.

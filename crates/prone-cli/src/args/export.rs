@@ -12,7 +12,7 @@ const EDGE: std::ops::RangeInclusive<usize> = 16..=4096;
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
-  prone crawl run --gait low-175 --record out/low
+  prone crawl run low-175 --record out/low
   prone export out/low --format mcap               for Foxglove, Rerun, PlotJuggler
   prone export out/low --format npz --out low.npz
   prone export out/low --format mp4 --view follow  needs ffmpeg

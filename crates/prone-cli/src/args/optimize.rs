@@ -6,9 +6,14 @@ use clap::ValueEnum;
 
 use prone_study::optimize::form::GaitForm;
 
+use super::named::GaitArg;
 use super::pricing::PricingArgs;
 
 #[derive(Debug, clap::Args)]
+#[command(mut_arg("argument", |arg| {
+    arg.help("Gait: a name that ships with prone (nominal, optimal, …), or a file")
+}))]
+#[command(mut_arg("gait", |arg| arg.help("Gait, in place of the argument")))]
 #[command(after_help = "\
 Examples:
   prone cost nominal --objective torque --source dynamics
@@ -18,9 +23,8 @@ Examples:
 Torque has the sign of the published recordings and is that of the right side. Violations are kept
 apart from torque: the sum of what is broken, in shares of the limit (published: violated samples).")]
 pub(crate) struct CostArgs {
-    /// A gait that ships with prone, or a gait file
-    #[arg(value_name = "GAIT")]
-    pub(crate) gait: String,
+    #[command(flatten)]
+    pub(crate) gait: GaitArg,
     #[command(flatten)]
     pub(crate) pricing: PricingArgs,
     /// Print {\"cost\", \"torque\", \"violations\", …}

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
+use super::named::{GaitArgs, RobotArg};
+
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -30,12 +32,10 @@ pub(crate) struct UnderArgs {
     /// Write the answer's cycle to a file
     #[arg(long, value_name = "FILE")]
     pub(crate) gait_out: Option<PathBuf>,
-    /// Robot folder with robot.toml and its model [default: the NAO that ships with prone]
-    #[arg(long, value_name = "DIR")]
-    pub(crate) robot: Option<PathBuf>,
-    /// Cycle to try, a name or a file; may be given several times [default: all that ship]
-    #[arg(long, value_name = "GAIT")]
-    pub(crate) gait: Vec<String>,
+    #[command(flatten)]
+    pub(crate) robot: RobotArg,
+    #[command(flatten)]
+    pub(crate) gaits: GaitArgs,
     /// Worker threads [default: all cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
@@ -89,9 +89,8 @@ pub(crate) struct FrontierArgs {
     /// Result folder; made, or replaced if it holds an earlier result
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
-    /// Robot folder with robot.toml and its model [default: the NAO that ships with prone]
-    #[arg(long, value_name = "DIR")]
-    pub(crate) robot: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) robot: RobotArg,
     /// Worker threads [default: all cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,

@@ -1,10 +1,10 @@
 //! What may be typed about a price: `prone cost` and `prone optimize` take the same.
 
-use std::path::PathBuf;
-
 use clap::ValueEnum;
 
 use prone::gait::PhaseDuration;
+
+use super::named::RobotArg;
 
 /// What is minimised, and by what it is measured.
 #[derive(Debug, clap::Args)]
@@ -57,9 +57,8 @@ pub(crate) struct PricingArgs {
     /// price a gait of another mapping or other arms, that gait itself]
     #[arg(long, value_name = "GAIT")]
     pub(crate) from: Option<String>,
-    /// Robot folder with robot.toml and its model [default: the NAO that ships with prone]
-    #[arg(long, value_name = "DIR")]
-    pub(crate) robot: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) robot: RobotArg,
 }
 
 /// An objective's name.

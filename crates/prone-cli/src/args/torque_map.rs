@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Subcommand, ValueEnum};
 
+use super::named::RobotArg;
+
 #[derive(Debug, Subcommand)]
 pub(crate) enum TorqueMapCommand {
     /// Measure the torques at every node of a grid over theta3, theta4 and alpha
@@ -65,9 +67,8 @@ pub(crate) struct BuildArgs {
     /// Worker threads [default: all cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
-    /// Robot folder with robot.toml and its model [default: the NAO that ships with prone]
-    #[arg(long, value_name = "DIR")]
-    pub(crate) robot: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) robot: RobotArg,
     /// Print the summary as JSON
     #[arg(long)]
     pub(crate) json: bool,

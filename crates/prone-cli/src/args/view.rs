@@ -5,7 +5,7 @@ use std::path::PathBuf;
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
-  prone crawl run --gait low-175 --cycles 3 --record out/low
+  prone crawl run low-175 --cycles 3 --record out/low
   prone view out/low --open               out/low.html, in the browser
   prone view out/low --compare out/table --out both.html
   prone view out/pulls/nominal-5s --compare out/pulls/optimal-5s   after prone reproduce

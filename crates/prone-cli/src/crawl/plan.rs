@@ -15,7 +15,7 @@ use prone_study::crawl::{Conditions, GaitSource, PastObstacles};
 use prone_study::cycle_search::settings::offsets;
 
 use crate::Failure;
-use crate::args::{CrawlRunArgs, ServoName};
+use crate::args::{CrawlRunArgs, ServoName, TimeStepName};
 use crate::gait::{find_cycle, is_shipped, refused};
 
 /// How many cycles where nothing is said.
@@ -52,9 +52,9 @@ impl Plan {
                 "--seed draws joint offsets or an inertial unit's noise: it goes with --joint-offset-deg or --uphill"
             )));
         }
-        let robot = crate::robot::load(args.robot.as_deref())?;
+        let robot = crate::robot::load(args.robot.name())?;
         let find = |name: &str| find_cycle(&robot.files().gaits, name);
-        let gait = find(&args.gait)?;
+        let gait = find(args.gait.name())?;
         let uphill = args.uphill.as_deref().map(find).transpose()?;
         let (scene, scene_text) = scene(args)?;
         let world =
@@ -216,10 +216,9 @@ fn regime(args: &CrawlRunArgs, robot: &Robot) -> Regime {
             Regime::LOCOMOTION.with_servo(Servo::Uniform(gain))
         }
     };
-    if args.time_step_ms == "1" {
-        regime.with_time_step(0.001)
-    } else {
-        regime
+    match args.time_step_ms {
+        TimeStepName::Usual => regime,
+        TimeStepName::Fine => regime.with_time_step(0.001),
     }
 }
 

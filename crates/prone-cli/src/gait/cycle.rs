@@ -14,7 +14,7 @@ use crate::Failure;
 use crate::args::GaitShowArgs;
 
 pub(super) fn show(args: &GaitShowArgs, loaded: &LoadedRobot) -> Result<(), Failure> {
-    let source = find_cycle(&loaded.files().gaits, &args.gait)?;
+    let source = find_cycle(&loaded.files().gaits, args.gait.name())?;
     let cycle = &source.cycle;
     let robot = loaded.robot();
     let checked = CheckedCycle::plan(robot, &robot.stops(), cycle, 0.0, TimeScale::ONE)

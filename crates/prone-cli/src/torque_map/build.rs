@@ -15,7 +15,7 @@ use crate::{Failure, interrupt, table_file};
 
 pub(super) fn run(args: &BuildArgs) -> Result<(), Failure> {
     let grid = NodeGrid::new(args.step_deg, args.theta4_max_deg).map_err(Failure::input)?;
-    let robot = crate::robot::load(args.robot.as_deref())?;
+    let robot = crate::robot::load(args.robot.name())?;
     let source = match args.source {
         SourceArg::Statics => Source::Statics,
         SourceArg::Simulation => Source::Simulation,

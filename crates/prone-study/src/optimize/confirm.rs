@@ -135,6 +135,12 @@ struct Job<'a> {
     duration: PhaseDuration,
 }
 
+/// What became of a pull. That one cannot be simulated is a result, no failure.
+enum Outcome {
+    Measured(Box<Row>),
+    Refused(Refusal),
+}
+
 /// Simulates on the current rayon pool.
 ///
 /// # Errors
@@ -172,10 +178,10 @@ pub fn run(plan: &ConfirmPlan<'_>, observer: &dyn Observer) -> Result<Confirmati
     };
     for outcome in measured {
         match outcome {
-            Ok(row) => confirmation.rows.push(row),
+            Outcome::Measured(row) => confirmation.rows.push(*row),
             // One reason per gait and regime says enough.
-            Err(refusal) if confirmation.refused.iter().any(|r| r.is_about(&refusal)) => {}
-            Err(refusal) => confirmation.refused.push(refusal),
+            Outcome::Refused(it) if confirmation.refused.iter().any(|r| r.is_about(&it)) => {}
+            Outcome::Refused(refusal) => confirmation.refused.push(refusal),
         }
     }
     fill_ratios(&mut confirmation.rows, plan);
@@ -190,7 +196,7 @@ impl Refusal {
 }
 
 impl Job<'_> {
-    fn measure(&self, objective: &Objective) -> Result<Result<Row, Refusal>, ConfirmError> {
+    fn measure(&self, objective: &Objective) -> Result<Outcome, ConfirmError> {
         let robot = self.world.robot();
         let pull = match pull::run(
             self.world,
@@ -200,7 +206,7 @@ impl Job<'_> {
             Keep::Rows,
         ) {
             Ok(pull) => pull,
-            Err(error) => return Ok(Err(self.refusal(&error))),
+            Err(error) => return Ok(Outcome::Refused(self.refusal(&error))),
         };
         let value = |objective: &Objective| -> Result<f64, ConfirmError> {
             let norm = objective.norm(robot)?;
@@ -214,7 +220,7 @@ impl Job<'_> {
             .last()
             .map_or(pull.start, |row| row.ground_from_root);
         let tops = pull.rows.iter().map(|row| row.top);
-        Ok(Ok(Row {
+        Ok(Outcome::Measured(Box::new(Row {
             regime: self.world.regime().name,
             gait: self.gait.name.clone(),
             duration_s: self.duration.seconds(),
@@ -228,7 +234,7 @@ impl Job<'_> {
             carried_from_percent: story.carried_from_percent,
             advance_mm: (end.origin().x() - pull.start.origin().x()) * 1e3,
             top_mm: tops.fold(f64::NEG_INFINITY, f64::max) * 1e3,
-        }))
+        })))
     }
 
     fn refusal(&self, error: &PullError) -> Refusal {
