@@ -89,7 +89,7 @@ pub(crate) fn frontier(args: &FrontierArgs) -> Result<(), Failure> {
         let aim = Aim {
             objective,
             merge: Merge::Mean,
-            rules: rules_for(objective, height, base),
+            rules: rules_for(objective, height, base, &robot),
         };
         jobs.push(job(&robot, &settings, aim, base, Some(mm))?);
     }
@@ -152,7 +152,7 @@ pub(crate) fn optimize(args: &OptimizeArgs) -> Result<(), Failure> {
         refuse_too_low(&robot, "--ceiling-mm", mm, height)?;
     }
     let base = frontier::base(&robot, &settings[0], &cycles, height).map_err(Failure::input)?;
-    let usual = rules_for(objective, height, base);
+    let usual = rules_for(objective, height, base, &robot);
     let rules = CycleRules {
         advance: args.least_advance_mm.map_or(usual.advance, |mm| mm * 1e-3),
         demanded_shoulder: args.demanded_shoulder_nm.unwrap_or(usual.demanded_shoulder),
@@ -338,9 +338,14 @@ fn confirmation_for(
     Ok(settings)
 }
 
-fn rules_for(objective: CycleObjective, height: f64, base: &Cycle) -> CycleRules {
+fn rules_for(
+    objective: CycleObjective,
+    height: f64,
+    base: &Cycle,
+    robot: &LoadedRobot,
+) -> CycleRules {
     match objective {
-        CycleObjective::Heat | CycleObjective::Peak => settings::heat_rules(height),
+        CycleObjective::Heat | CycleObjective::Peak => settings::heat_rules(height, robot.robot()),
         CycleObjective::Advance | CycleObjective::Speed => settings::advance_rules(height, base),
     }
 }

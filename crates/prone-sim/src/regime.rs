@@ -4,6 +4,8 @@
 //! them, and with it every torque, depends on how friction is modelled. So friction is never a
 //! free number here but a property of a named regime, and every record says which one it used.
 
+use prone::robot::{Control, Joint, ServoLaw};
+
 /// How contacts, stops and motors are modelled.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Regime {
@@ -19,8 +21,10 @@ pub struct Regime {
     pub effort: Effort,
     /// Which servo gains hold.
     pub servo: Servo,
-    /// Largest speed that a servo commands, rad/s.
-    pub servo_speed: f64,
+    /// Which servo law holds.
+    pub servo_law: Law,
+    /// Largest speed that a servo commands in place of the law's, rad/s.
+    pub servo_speed: Option<f64>,
     /// Length of one engine step, s; a whole number of them makes a [`CONTROL_STEP`].
     pub time_step: f64,
 }
@@ -53,6 +57,25 @@ pub enum Servo {
     Uniform(f64),
 }
 
+impl Servo {
+    /// Velocity gain of a joint's servo, N·m·s/rad.
+    pub const fn gain(self, joint: &Joint) -> f64 {
+        match self {
+            Self::Robot => joint.servo_gain,
+            Self::Uniform(gain) => gain,
+        }
+    }
+}
+
+/// Which servo law a regime uses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Law {
+    /// The robot's own ([`Control::servo`]).
+    Robot,
+    /// That of the published recordings, on whatever robot.
+    Recordings,
+}
+
 impl Regime {
     /// Slippery contacts, so that the chain squeezes nothing: the recordings had practically no
     /// internal squeeze (−0.3 ± 2.3 N), and their servos a limit of 30 N·m.
@@ -63,11 +86,12 @@ impl Regime {
         stops: Stops::Study,
         effort: Effort::Uniform(30.0),
         servo: Servo::Robot,
-        servo_speed: SERVO_SPEED,
+        servo_law: Law::Recordings,
+        servo_speed: None,
         time_step: TIME_STEP,
     };
 
-    /// Contacts that stick, with the maker's limits on: for moving forward.
+    /// Contacts that stick, with the maker's limits on and the robot's own servos: for moving forward.
     pub const LOCOMOTION: Self = Self {
         name: "locomotion",
         friction: 0.7,
@@ -75,7 +99,8 @@ impl Regime {
         stops: Stops::Maker,
         effort: Effort::Published,
         servo: Servo::Robot,
-        servo_speed: SERVO_SPEED,
+        servo_law: Law::Robot,
+        servo_speed: None,
         time_step: TIME_STEP,
     };
 
@@ -88,12 +113,13 @@ impl Regime {
         stops: Stops::Study,
         effort: Effort::Uniform(30.0),
         servo: Servo::Robot,
-        servo_speed: SERVO_SPEED,
+        servo_law: Law::Recordings,
+        servo_speed: None,
         time_step: TIME_STEP,
     };
 
     /// Stiff joints on a slippery floor: the rigid body of [`prone::statics`]. 20 N·m·s/rad times
-    /// [`SERVO_RATE`] is 400 N·m/rad.
+    /// the rate of [`RECORDINGS`] is 400 N·m/rad.
     pub const STIFF: Self = Self {
         name: "stiff",
         servo: Servo::Uniform(20.0),
@@ -131,8 +157,20 @@ impl Regime {
     #[must_use]
     pub const fn with_servo_speed(self, servo_speed: f64) -> Self {
         Self {
-            servo_speed,
+            servo_speed: Some(servo_speed),
             ..self
+        }
+    }
+
+    /// The law that a robot's servos follow.
+    pub fn servo_law(&self, control: &Control) -> ServoLaw {
+        let law = match self.servo_law {
+            Law::Robot => control.servo,
+            Law::Recordings => RECORDINGS,
+        };
+        ServoLaw {
+            speed: self.servo_speed.unwrap_or(law.speed),
+            ..law
         }
     }
 
@@ -150,11 +188,11 @@ impl Regime {
 /// Engine steps of the usual length in one control step.
 pub const STEPS_PER_CONTROL: usize = 20;
 
-/// Servo law of the recordings: speed command per position error, 1/s.
-pub const SERVO_RATE: f64 = 20.0;
-
-/// Servo law of the recordings: largest speed command, rad/s.
-pub const SERVO_SPEED: f64 = 3.0;
+/// Servo law of the recordings.
+pub const RECORDINGS: ServoLaw = ServoLaw {
+    rate: 20.0,
+    speed: 3.0,
+};
 
 /// Soft-contact time constant, s, and damping ratio (the engine's default).
 pub const SOLREF: [f64; 2] = [0.02, 1.0];
@@ -164,10 +202,39 @@ pub const SOLIMP: [f64; 5] = [0.9, 0.99, 0.001, 0.5, 2.0];
 
 #[cfg(test)]
 mod tests {
+    use prone::robot::SteeringGains;
+
     use super::*;
 
     #[test]
     fn a_control_step_is_a_whole_number_of_engine_steps() {
         assert!((STEPS_PER_CONTROL as f64 * TIME_STEP - CONTROL_STEP).abs() < 1e-15);
+    }
+
+    /// Of a robot with other servos than the recordings' one.
+    #[test]
+    fn locomotion_has_the_robots_servo_law_and_the_study_its_own() {
+        let own = ServoLaw {
+            rate: 12.0,
+            speed: 5.0,
+        };
+        let control = Control {
+            command_step: 0.01,
+            servo: own,
+            stiff_servo_gain: 20.0,
+            steering: SteeringGains {
+                yaw: 0.9,
+                lateral: 3.5,
+                lateral_sum: 0.35,
+            },
+            uphill: 0.03,
+        };
+        assert_eq!(Regime::LOCOMOTION.servo_law(&control), own);
+        for study in [Regime::TORQUE_STUDY, Regime::TABLE, Regime::STIFF] {
+            assert_eq!(study.servo_law(&control), RECORDINGS, "{}", study.name);
+        }
+        let brisk = Regime::LOCOMOTION.with_servo_speed(8.0);
+        let faster = ServoLaw { speed: 8.0, ..own };
+        assert_eq!(brisk.servo_law(&control), faster);
     }
 }

@@ -6,9 +6,9 @@ use glam::{DQuat, DVec3};
 use mujoco_rs::prelude::*;
 
 use prone::frames::{Ground, Link, Point, Root, Transform};
-use prone::robot::{BodyPoses, ContactGroup, Joint, JointAngles, JointId, Robot};
+use prone::robot::{BodyPoses, ContactGroup, JointAngles, JointId, Robot};
 
-use crate::regime::{CONTROL_STEP, SERVO_RATE, Servo};
+use crate::regime::CONTROL_STEP;
 use crate::world::World;
 
 mod contacts;
@@ -83,11 +83,8 @@ impl Simulation {
         qpos[..FREE_JOINT].copy_from_slice(&[0.0, 0.0, height, turn.w, turn.x, turn.y, turn.z]);
         qpos[FREE_JOINT..].copy_from_slice(angles.as_slice());
         data.forward();
-        let gain = |joint: &Joint| match world.regime().servo {
-            Servo::Robot => joint.servo_gain,
-            Servo::Uniform(gain) => gain,
-        };
-        let gains = robot.joints.iter().map(gain).collect();
+        let servo = world.regime().servo;
+        let gains = robot.joints.iter().map(|joint| servo.gain(joint)).collect();
         Self {
             world: world.clone(),
             data,
@@ -160,12 +157,12 @@ impl Simulation {
         Ok(means)
     }
 
-    /// One engine step under the servo law `speed = clip(rate · error, ±largest)`.
+    /// One engine step under the servo law of the world.
     pub fn step(&mut self) {
-        let largest = self.world.regime().servo_speed;
+        let law = self.world.servo_law();
         for (index, reference) in self.reference.iter().enumerate() {
             let error = reference - self.data.qpos()[FREE_JOINT + index];
-            let speed = (SERVO_RATE * error).clamp(-largest, largest);
+            let speed = law.command(error);
             self.data.ctrl_mut()[index] = speed;
             // As the engine is about to work it out, before it cuts it.
             let lag = speed - self.data.qvel()[FREE_JOINT_SPEEDS + index];

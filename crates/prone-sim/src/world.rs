@@ -9,13 +9,13 @@ use mujoco_rs::mujoco_c::mjNGAIN;
 use mujoco_rs::prelude::*;
 use mujoco_rs::wrappers::mj_editing::{MjsGeom, MjtGeomInertia, MjtLimited};
 
-use prone::robot::{BodyId, Joint, Range, Robot};
+use prone::robot::{BodyId, Joint, Range, Robot, ServoLaw};
 use prone::scene::{Obstacle, Scene, SceneError};
 use prone::statics::GRAVITY;
 
 use crate::engine_log;
 use crate::load::LoadedRobot;
-use crate::regime::{self, Effort, Regime, Servo, Stops};
+use crate::regime::{self, Effort, Regime, Stops};
 use scenery::Scenery;
 
 /// Rolling and torsional friction, m: the engine's defaults. Contacts are three-dimensional
@@ -134,6 +134,11 @@ impl World {
         &self.regime
     }
 
+    /// The law that the robot's servos follow.
+    pub fn servo_law(&self) -> ServoLaw {
+        self.regime.servo_law(&self.robot.control)
+    }
+
     /// The joint stops that hold in this world, in the order of the robot's joints.
     pub fn stops(&self) -> &[Range] {
         &self.stops
@@ -200,11 +205,7 @@ fn compile(
             Effort::Published => joint.effort_limit,
             Effort::Uniform(limit) => limit,
         };
-        let gain = match regime.servo {
-            Servo::Robot => joint.servo_gain,
-            Servo::Uniform(gain) => gain,
-        };
-        add_servo(&mut spec, joint, gain, limit);
+        add_servo(&mut spec, joint, regime.servo.gain(joint), limit);
     }
     let mut model = spec.compile()?;
     // In the compiled model angles are radians, whatever unit the text has.

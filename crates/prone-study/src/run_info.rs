@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use serde::{Deserialize, Serialize};
 
-use prone_sim::regime::{CONTROL_STEP, Effort, SERVO_RATE, SOLIMP, SOLREF, Stops, TIME_STEP};
+use prone_sim::regime::{CONTROL_STEP, Effort, SOLIMP, SOLREF, Stops, TIME_STEP};
 use prone_sim::{LoadedRobot, World};
 
 use crate::curves_info::CurvesInfo;
@@ -169,8 +169,8 @@ impl RunInfo {
                 },
                 time_step_s: TIME_STEP,
                 control_step_s: CONTROL_STEP,
-                servo_rate_per_s: SERVO_RATE,
-                servo_speed_rad_s: regime.servo_speed,
+                servo_rate_per_s: world.servo_law().rate,
+                servo_speed_rad_s: world.servo_law().speed,
                 solref: SOLREF,
                 solimp: SOLIMP,
                 start_posture: study.start_posture.clone(),

@@ -16,6 +16,7 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 
 use crate::frames::{Ground, Root, Transform};
+use crate::robot::SteeringGains;
 
 /// Where a robot is and where it heads, in the frame of the line that it is to follow.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -43,28 +44,21 @@ impl Bearing {
     }
 }
 
-/// Gains of equation (1), and the line.
+/// The command of equation (1), cycle after cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HeadingHold {
-    /// k, without unit.
-    pub yaw_gain: f64,
-    /// a, rad/m.
-    pub lateral: f64,
-    /// b, rad/m.
-    pub lateral_sum: f64,
+    /// k, a and b.
+    pub gains: SteeringGains,
     /// The largest |u|, rad.
     pub limit: f64,
     sum: f64,
 }
 
 impl HeadingHold {
-    /// Gains for a crawl of some 0.1 m and up to a tenth of a radian of turn a cycle: of a heading
-    /// error nine tenths are commanded at once, an offset is closed within some five cycles.
-    pub fn new(limit: f64) -> Self {
+    /// With a robot's gains, turning by at most `limit`, rad.
+    pub const fn new(gains: SteeringGains, limit: f64) -> Self {
         Self {
-            yaw_gain: 0.9,
-            lateral: 3.5,
-            lateral_sum: 0.35,
+            gains,
             limit,
             sum: 0.0,
         }
@@ -73,9 +67,14 @@ impl HeadingHold {
     /// The turn command for the next cycle, rad, with the target heading subtracted from the
     /// bearing by the caller.
     pub fn turn(&mut self, bearing: Bearing) -> f64 {
-        let error = |sum: f64| bearing.yaw + self.lateral * bearing.y + self.lateral_sum * sum;
+        let SteeringGains {
+            yaw,
+            lateral,
+            lateral_sum,
+        } = self.gains;
+        let error = |sum: f64| bearing.yaw + lateral * bearing.y + lateral_sum * sum;
         let sum = self.sum + bearing.y;
-        let wanted = -self.yaw_gain * error(sum);
+        let wanted = -yaw * error(sum);
         if wanted.abs() < self.limit {
             self.sum = sum;
         }
@@ -108,6 +107,12 @@ impl TurnTo {
 mod tests {
     use super::*;
 
+    const GAINS: SteeringGains = SteeringGains {
+        yaw: 0.9,
+        lateral: 3.5,
+        lateral_sum: 0.35,
+    };
+
     #[test]
     fn a_heading_is_turned_to_the_shorter_way_and_no_faster_than_the_limit() {
         let turn = |heading: f64, yaw: f64| {
@@ -128,7 +133,7 @@ mod tests {
 
     #[test]
     fn a_robot_that_heads_left_or_is_left_of_the_line_turns_right() {
-        let left = |x, y, yaw| HeadingHold::new(0.2).turn(Bearing { x, y, yaw });
+        let left = |x, y, yaw| HeadingHold::new(GAINS, 0.2).turn(Bearing { x, y, yaw });
         assert!(left(0.0, 0.0, 0.1) < 0.0);
         assert!(left(0.0, 0.01, 0.0) < 0.0);
         assert!(left(0.0, -0.01, 0.0) > 0.0);
@@ -137,7 +142,7 @@ mod tests {
 
     #[test]
     fn a_steady_push_is_learnt_but_not_while_the_command_is_clipped() {
-        let mut hold = HeadingHold::new(0.2);
+        let mut hold = HeadingHold::new(GAINS, 0.2);
         let aside = Bearing {
             x: 0.0,
             y: 0.005,

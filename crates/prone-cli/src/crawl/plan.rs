@@ -4,7 +4,7 @@ use anyhow::anyhow;
 
 use prone::crawl::{CrawlerError, HoldHeading, HoldLine, Pilot, SlopeAware, Straight};
 use prone::gait::cycle::{CheckedCycle, Cycle};
-use prone::robot::JointAngles;
+use prone::robot::{JointAngles, Robot};
 use prone::scene::{Obstacle, Quantity, Scene, SceneError, SideFriction};
 use prone::steering::{HeadingHold, TurnTo};
 use prone_files::{scene_file, shipped, text_file};
@@ -20,11 +20,6 @@ use crate::gait::{find_cycle, is_shipped, refused};
 
 /// How many cycles where nothing is said.
 const CYCLES: usize = 9;
-
-/// Slope above which the cycle for going uphill is taken, degrees: above what the inertial unit is
-/// off by (0.8°), below the 2° that it feels at the foot of a ramp of 10°, with the elbows on it and
-/// the toes before it, where `hip-10` comes to a halt.
-const UPHILL_DEG: f64 = 1.5;
 
 /// How many cycles a robot has to get past its obstacles.
 const MOST_CYCLES: usize = 60;
@@ -62,7 +57,8 @@ impl Plan {
         let gait = find(args.gait.name())?;
         let uphill = args.uphill.as_deref().map(find).transpose()?;
         let (scene, scene_text) = scene(args)?;
-        let world = World::in_scene(&robot, regime(args), &scene).map_err(Failure::input)?;
+        let world =
+            World::in_scene(&robot, regime(args, robot.robot()), &scene).map_err(Failure::input)?;
         let steering = steering(args, &gait)?;
         for turn in steering.extremes() {
             let stops = world.stops();
@@ -145,17 +141,18 @@ impl Plan {
     }
 
     pub(super) fn pilot(&self) -> Box<dyn Pilot> {
+        let control = &self.world.robot().control;
         let steering: Box<dyn Pilot> = match self.steering {
             Steering::Straight { turn } => Box::new(Straight { turn }),
             Steering::Hold { limit } => Box::new(HoldLine {
-                hold: HeadingHold::new(limit),
+                hold: HeadingHold::new(control.steering, limit),
             }),
             Steering::To(to) => Box::new(HoldHeading { to }),
         };
         if self.uphill.is_none() {
             return steering;
         }
-        Box::new(SlopeAware::new(steering, UPHILL_DEG.to_radians()))
+        Box::new(SlopeAware::new(steering, control.uphill))
     }
 }
 
@@ -211,13 +208,11 @@ fn in_file(gait: &GaitSource, error: LimbsError) -> Failure {
     Failure::Input(anyhow!("{}: {error}", gait.file))
 }
 
-fn regime(args: &CrawlRunArgs) -> Regime {
+fn regime(args: &CrawlRunArgs, robot: &Robot) -> Regime {
     let regime = match args.servo {
         ServoName::Soft => Regime::LOCOMOTION,
         ServoName::Stiff => {
-            let Servo::Uniform(gain) = Regime::STIFF.servo else {
-                unreachable!("stiff joints have one gain")
-            };
+            let gain = robot.control.stiff_servo_gain;
             Regime::LOCOMOTION.with_servo(Servo::Uniform(gain))
         }
     };

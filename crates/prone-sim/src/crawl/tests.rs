@@ -13,7 +13,7 @@ fn nao() -> LoadedRobot {
 
 fn hold(limit: f64) -> HoldLine {
     HoldLine {
-        hold: HeadingHold::new(limit),
+        hold: HeadingHold::new(nao().robot().control.steering, limit),
     }
 }
 

@@ -5,7 +5,7 @@ use serde::Serialize;
 use prone::gait::Gait;
 use prone::gait::cycle::Cycle;
 use prone::robot::{JointAngles, Robot};
-use prone_sim::regime::{Effort, SERVO_RATE, SOLIMP, SOLREF, Servo, Stops};
+use prone_sim::regime::{Effort, SOLIMP, SOLREF, Servo, Stops};
 use prone_sim::{LoadedRobot, World};
 
 use crate::recorded::{Command, Extent};
@@ -180,8 +180,8 @@ impl<'a, O> RecordInfo<'a, O> {
                     Servo::Robot => "the robot's".to_owned(),
                     Servo::Uniform(gain) => format!("{gain} N·m·s/rad on every joint"),
                 },
-                servo_rate_per_s: SERVO_RATE,
-                servo_speed_rad_s: regime.servo_speed,
+                servo_rate_per_s: world.servo_law().rate,
+                servo_speed_rad_s: world.servo_law().speed,
                 time_step_s: regime.time_step,
                 command_step_s: subject.command_step_s,
                 settle_s: prone_sim::pull::SETTLE,

@@ -18,11 +18,6 @@ const CURVE_REACH: f64 = 0.35;
 const JOINT_REACH: f64 = 0.5;
 /// By which factor times may.
 const TIME_REACH: f64 = 1.4;
-/// Least and greatest upper-arm angle of a pull, rad: the arm points down and not backwards.
-const UPPER_ARM: Range = Range {
-    lower: -1.75,
-    upper: -0.35,
-};
 
 /// Cycles about one.
 #[derive(Debug, Clone)]
@@ -116,7 +111,11 @@ impl CycleForm {
         for (which, curve, within) in [
             (PullCurve::Knee, &middle.pull.knee, None),
             (PullCurve::Hip, &middle.pull.hip, None),
-            (PullCurve::UpperArm, &middle.pull.upper_arm, Some(UPPER_ARM)),
+            (
+                PullCurve::UpperArm,
+                &middle.pull.upper_arm,
+                Some(robot.search.upper_arm),
+            ),
         ] {
             form.curve(&which, curve, within)?;
         }

@@ -21,8 +21,6 @@ const STICKY: f64 = 1.0;
 /// played fast, servos lag.
 const FAST: f64 = 0.8;
 const SLOW: f64 = 1.7;
-/// Velocity gain of stiff servos, N·m·s/rad: with the servo law's 20/s, 400 N·m/rad.
-const STIFF: f64 = 20.0;
 /// Friction on the left and on the right of uneven grounds.
 const UNEVEN: [(f64, f64); 2] = [(0.5, 0.9), (0.9, 0.5)];
 /// How far joints are off there, rad: 1°.
@@ -91,9 +89,10 @@ fn with_scale(scale: f64) -> Result<SettingSpec, SettingError> {
     })
 }
 
-fn stiff(cycles: usize, role: Role) -> SettingSpec {
+fn stiff(robot: &LoadedRobot, cycles: usize, role: Role) -> SettingSpec {
+    let gain = robot.robot().control.stiff_servo_gain;
     SettingSpec {
-        regime: Regime::LOCOMOTION.with_servo(Servo::Uniform(STIFF)),
+        regime: Regime::LOCOMOTION.with_servo(Servo::Uniform(gain)),
         ..plain(SettingKind::StiffServos, cycles, role)
     }
 }
@@ -178,14 +177,14 @@ pub fn for_heat(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
         robot,
         [
             plain(SettingKind::AsItIs, 2, Role::Value),
-            stiff(2, Role::Value),
+            stiff(robot, 2, Role::Value),
         ],
     )
 }
 
 /// For a confirmation: one thing changed at a time, three cycles each. Stiff servos stand beside it,
-/// and servos that command as much speed as the fastest joint of the robot has, where the
-/// recordings' law cuts at 3 rad/s and limbs lag behind the plan: no search of the advance looks at
+/// and servos that command as much speed as the fastest joint of the robot has, where the robot's
+/// law cuts earlier (the NAO's at 3 rad/s) and limbs lag behind the plan: no search of the advance looks at
 /// them.
 ///
 /// # Errors
@@ -196,9 +195,10 @@ pub fn for_confirmation(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingErro
         regime: regime.with_time_step(0.001),
         ..plain(SettingKind::FineSteps, 3, Role::Keep(HOLDS))
     };
-    let speeds = robot.robot().joints.iter().map(|joint| joint.speed_limit);
+    let (joints, law) = (&robot.robot().joints, robot.robot().control.servo);
+    let speeds = joints.iter().map(|joint| joint.speed_limit);
     let brisk = SettingSpec {
-        regime: regime.with_servo_speed(speeds.fold(regime.servo_speed, f64::max)),
+        regime: regime.with_servo_speed(speeds.fold(law.speed, f64::max)),
         ..plain(SettingKind::BriskServos, 3, Role::Beside)
     };
     compiled(
@@ -210,7 +210,7 @@ pub fn for_confirmation(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingErro
             with_scale(FAST)?,
             with_scale(SLOW)?,
             fine,
-            stiff(3, Role::Beside),
+            stiff(robot, 3, Role::Beside),
             brisk,
         ],
     )
@@ -243,13 +243,10 @@ pub fn advance_rules(height: f64, base: &Cycle) -> CycleRules {
 }
 
 /// Rules of a search of the heat per metre below a height, m.
-pub fn heat_rules(height: f64) -> CycleRules {
+pub fn heat_rules(height: f64, robot: &Robot) -> CycleRules {
     CycleRules {
         ceiling: height,
-        advance: LEAST_ADVANCE,
+        advance: robot.search.least_advance,
         ..CycleRules::FREE
     }
 }
-
-/// Least advance of a cycle that is searched for its heat, m: slower ones stand still.
-pub const LEAST_ADVANCE: f64 = 0.12;

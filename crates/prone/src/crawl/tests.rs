@@ -441,7 +441,7 @@ fn limit_senses_that_are_none() {
 #[test]
 fn who_follows_a_line_needs_a_bearing() {
     let hold = || HoldLine {
-        hold: HeadingHold::new(0.2),
+        hold: HeadingHold::new(two_armed().control.steering, 0.2),
     };
     let program = program(&[cycle("only")], 2, AT_ONCE, set_points());
     let error = crawl(&mut crawler_of(program.clone(), hold()), whole).err();
