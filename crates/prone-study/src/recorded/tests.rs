@@ -14,6 +14,25 @@ fn of_contacts(text: &str) -> Recorded {
 }
 
 #[test]
+fn a_record_that_says_no_version_is_of_an_unknown_one() {
+    let version = |run: &str| {
+        let home = folder(&[(RUN_FILE, Some(run))]);
+        RecordedRun::read(home.path()).unwrap().robot.version_name()
+    };
+    assert_eq!(version(&run_json()), "unknown");
+    let said =
+        |more: &str| run_json().replace("\"name\": \"r\"", &format!("\"name\": \"r\", {more}"));
+    assert_eq!(
+        version(&said(r#""family": "nao", "version": "v4""#)),
+        "v4 of nao"
+    );
+    assert_eq!(
+        version(&said(r#""family": null, "version": null"#)),
+        "unknown"
+    );
+}
+
+#[test]
 fn a_record_is_read_in_si() {
     let record = read(&[]).unwrap();
     assert_eq!(record.joints, ["A"]);
