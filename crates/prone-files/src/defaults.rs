@@ -134,7 +134,7 @@ impl DefaultsTable {
     /// Every name, with what it must be the name of.
     pub(crate) fn names(&self) -> impl Iterator<Item = (Kind, &Spanned<String>)> {
         fn all(names: Option<&Names>) -> impl Iterator<Item = &Spanned<String>> {
-            names.into_iter().flat_map(|names| names.get_ref())
+            names.into_iter().flat_map(Spanned::get_ref)
         }
         let (pull, cycle) = (&self.pull, &self.cycle);
         let pulls = all(pull.compared.as_ref())

@@ -383,9 +383,9 @@ fn the_pilot_decides_once_a_cycle_and_feels_every_tick() {
     let mut crawler = crawler_of(program, pilot);
     let mut names = Vec::new();
     let mut angles = crawler.first_pose().posture;
-    let mut ticks = 0;
+    let mut ticks = 0_usize;
     while crawler.ended().is_none() {
-        let time = f64::from(ticks) * TICK;
+        let time = ticks as f64 * TICK;
         if let JointCommand::SetPoint(posture) = crawler.tick(&senses(time, &angles)).unwrap() {
             angles = posture;
         }
@@ -396,7 +396,7 @@ fn the_pilot_decides_once_a_cycle_and_feels_every_tick() {
     }
     assert_eq!(names, ["one", "two", "one"]);
     assert_eq!(crawler.pilot.decided, 3);
-    assert_eq!(crawler.pilot.felt, ticks as usize);
+    assert_eq!(crawler.pilot.felt, ticks);
 }
 
 #[test]
