@@ -88,8 +88,9 @@ pub enum CrawlerError {
         /// How many there are.
         cycles: usize,
     },
-    /// A cycle cannot be planned.
-    #[error("in cycle {cycle}: {source}")]
+    /// A cycle cannot be planned. Of the first one, before anything is crawled, this is an error of
+    /// its plan alone.
+    #[error("{}{source}", in_cycle(*cycle))]
     Cycle {
         /// From 1.
         cycle: usize,
@@ -152,6 +153,15 @@ pub enum CrawlerError {
         /// What was asked for, s.
         seconds: f64,
     },
+}
+
+/// Where a plan is wrong, for messages: nothing has been crawled when the first one is made.
+fn in_cycle(cycle: usize) -> String {
+    if cycle == 1 {
+        String::new()
+    } else {
+        format!("in cycle {cycle}: ")
+    }
 }
 
 /// Longest rest before the first cycle, s.
@@ -608,13 +618,4 @@ fn plan(
 }
 
 /// How long all joints need together, s, where none passes a share of its speed limit.
-fn way_seconds(robot: &Robot, from: &JointAngles, to: &JointAngles, speed: f64) -> f64 {
-    let times = robot
-        .joints
-        .iter()
-        .zip(from.pairs(to))
-        .map(|(joint, (from, to))| {
-            Easing::Smoothstep.peak_speed() * (to - from).abs() / (speed * joint.speed_limit)
-        });
-    times.fold(SHORTEST_WAY, f64::max)
-}
+fn way_seconds(robot: &Robot, from: &JointAngles, to:
