@@ -27,7 +27,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use mujoco_rs::prelude::{MjData, MjModel};
 
-use prone::robot::BodyId;
+use prone::robot::{BodyId, Robot};
 
 pub use picture::{Picture, PictureError};
 
@@ -40,6 +40,16 @@ use trace::{Hit, Tracer};
 const RAYS_PER_EDGE_PIXEL: u32 = 16;
 /// Normals whose cosine is below this belong to two sides of an edge: 15°.
 const SMOOTH_COSINE: f64 = 0.966;
+
+/// Length of the lying robot for which the lengths of pictures are written, here and in `prone-study`,
+/// m.
+const DRAWN_FOR: f64 = 0.6;
+
+/// How much larger a robot is than the one that pictures are written for: lengths that frame it are
+/// multiplied by this, angles are not.
+pub fn scale(robot: &Robot) -> f64 {
+    robot.lying_length / DRAWN_FOR
+}
 
 /// Where a picture is taken from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,8 +67,8 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// How far the ready-made cameras stand from their target, m: far enough that the near arm
-    /// does not look longer than the far one.
+    /// How far the ready-made cameras stand from their target at scale 1, m: far enough that the
+    /// near arm does not look longer than the far one.
     const DISTANCE: f64 = 2.4;
     /// The field of view from the side, rad: a picture of 16:9 is 0.90 m wide at the target, around
     /// a robot 0.6 m long.
@@ -68,28 +78,33 @@ impl Camera {
 
     /// From the robot's right and slightly above: the robot crawls to the right.
     ///
-    /// `middle` is the middle of the robot, m, in the ground frame.
-    pub fn right_side(middle: DVec3) -> Self {
-        Self::from_direction(middle, DVec3::new(0.05, -1.0, 0.20), Self::SIDE_FOV)
+    /// `middle` is the middle of the robot, m, in the ground frame; `scale` is its [`scale`].
+    pub fn right_side(middle: DVec3, scale: f64) -> Self {
+        Self::from_direction(middle, DVec3::new(0.05, -1.0, 0.20), scale, Self::SIDE_FOV)
     }
 
     /// From the robot's left and slightly above: the robot crawls to the left.
     ///
-    /// `middle` is the middle of the robot, m, in the ground frame.
-    pub fn left_side(middle: DVec3) -> Self {
-        Self::from_direction(middle, DVec3::new(0.05, 1.0, 0.20), Self::SIDE_FOV)
+    /// `middle` is the middle of the robot, m, in the ground frame; `scale` is its [`scale`].
+    pub fn left_side(middle: DVec3, scale: f64) -> Self {
+        Self::from_direction(middle, DVec3::new(0.05, 1.0, 0.20), scale, Self::SIDE_FOV)
     }
 
     /// From the front, the right and above: both arms and the head are visible.
     ///
-    /// `middle` is the middle of the robot, m, in the ground frame.
-    pub fn three_quarter(middle: DVec3) -> Self {
-        Self::from_direction(middle, DVec3::new(0.75, -0.80, 0.45), Self::CORNER_FOV)
+    /// `middle` is the middle of the robot, m, in the ground frame; `scale` is its [`scale`].
+    pub fn three_quarter(middle: DVec3, scale: f64) -> Self {
+        Self::from_direction(
+            middle,
+            DVec3::new(0.75, -0.80, 0.45),
+            scale,
+            Self::CORNER_FOV,
+        )
     }
 
-    fn from_direction(target: DVec3, direction: DVec3, vertical_fov: f64) -> Self {
+    fn from_direction(target: DVec3, direction: DVec3, scale: f64, vertical_fov: f64) -> Self {
         Self {
-            position: target + Self::DISTANCE * direction.normalize(),
+            position: target + Self::DISTANCE * scale * direction.normalize(),
             target,
             vertical_fov,
             up: DVec3::Z,

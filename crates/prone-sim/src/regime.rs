@@ -91,7 +91,8 @@ impl Regime {
         time_step: TIME_STEP,
     };
 
-    /// Contacts that stick, with the maker's limits on and the robot's own servos: for moving forward.
+    /// Contacts that stick, with the maker's limits on and the robot's own servos: for moving
+    /// forward.
     pub const LOCOMOTION: Self = Self {
         name: "locomotion",
         friction: 0.7,

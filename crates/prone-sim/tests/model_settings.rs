@@ -84,6 +84,17 @@ fn a_model_in_degrees_is_the_same_robot_with_the_same_stops() {
     }
 }
 
+/// A lazy servo lets the robot sag where its own law holds, and changes no regime of the study.
+#[test]
+fn the_servo_law_of_a_robot_holds_in_locomotion_alone() {
+    let lazy = ("servo_rate_per_s = 20.0", "servo_rate_per_s = 5.0");
+    let loaded = LoadedRobot::load(changed(lazy, SAME)).unwrap();
+    assert!(run(&loaded, Regime::LOCOMOTION) != run(&nao(), Regime::LOCOMOTION));
+    for study in [Regime::TORQUE_STUDY, Regime::TABLE, Regime::STIFF] {
+        assert!(run(&loaded, study) == run(&nao(), study), "{}", study.name);
+    }
+}
+
 /// Whatever a model sets for floors, servos and the solver, the program sets it again.
 #[test]
 fn settings_of_the_model_change_neither_floor_nor_servos() {

@@ -22,7 +22,7 @@ const FIELD_OF_VIEW: f64 = 0.155;
 const COVER: (usize, usize) = (960, 432);
 const COVER_FIELD_OF_VIEW: f64 = 0.17;
 
-/// Height of the point that the camera looks at, m: half that of a lying robot.
+/// Height of the point that the camera looks at, m, at scale 1: half that of a lying robot.
 const MIDDLE: f64 = 0.08;
 
 /// Why there are no frames.
@@ -49,15 +49,16 @@ pub(crate) fn of(
     duration_s: f64,
     snapshots: &[Snapshot],
 ) -> Result<Frames, FramesError> {
+    let scale = camera::scale(world.robot());
     let middle = snapshots
         .get(snapshots.len() / 2)
         .map_or(DVec3::ZERO, |snapshot| {
             let centre = world.centre_of_mass(snapshot).metres();
-            DVec3::new(centre.x, centre.y, MIDDLE)
+            DVec3::new(centre.x, centre.y, MIDDLE * scale)
         });
     let camera = Camera {
         vertical_fov: FIELD_OF_VIEW,
-        ..Camera::right_side(middle)
+        ..Camera::right_side(middle, scale)
     };
     let pictures: Vec<Picture> = snapshots
         .par_iter()
@@ -156,9 +157,11 @@ pub(crate) fn cover(world: &World, snapshot: &Snapshot) -> Result<Vec<u8>, Frame
 
 fn from_the_right(world: &World, snapshot: &Snapshot) -> Picture {
     let centre = world.centre_of_mass(snapshot).metres();
+    let scale = camera::scale(world.robot());
+    let middle = DVec3::new(centre.x, centre.y, MIDDLE * scale);
     let camera = Camera {
         vertical_fov: COVER_FIELD_OF_VIEW,
-        ..Camera::right_side(DVec3::new(centre.x, centre.y, MIDDLE))
+        ..Camera::right_side(middle, scale)
     };
     camera::ray_cast(&mut world.at(snapshot), &camera, COVER)
 }

@@ -40,8 +40,8 @@ threads. After Ctrl-C, at once, nothing is written.")]
 pub(crate) struct CrawlRunArgs {
     #[command(flatten)]
     pub(crate) gait: GaitArg,
-    /// Crawl this cycle instead where the robot feels that it goes uphill, more than 1.5°
-    /// by its inertial unit, whose noise --seed draws
+    /// Crawl this cycle instead where the robot feels that it goes uphill, more than `uphill_deg` of its
+    /// robot.toml (NAO 1.5°) by its inertial unit, whose noise --seed draws
     #[arg(long, value_name = "GAIT", requires = "seed")]
     pub(crate) uphill: Option<String>,
     /// How many cycles [default: 9]
@@ -132,7 +132,7 @@ pub(crate) struct CrawlRunArgs {
 pub(crate) enum ServoName {
     /// The robot's own: on the NAO 80 N·m/rad at the legs, 40 at the arms
     Soft,
-    /// 400 N·m/rad on every joint
+    /// `stiff_servo_gain_nms` of robot.toml on every joint: on the NAO 400 N·m/rad
     Stiff,
 }
 

@@ -87,7 +87,7 @@ pub(crate) struct OptimizeArgs {
     /// cycle: only cycles that can be steered, as in `prone crawl frontier --steerable`
     #[arg(long)]
     pub(crate) steerable: bool,
-    /// cycle: least advance per cycle, mm [default: the robot's least for heat and peak (NAO 120), else 10]
+    /// cycle: least advance per cycle, mm [default: that of robot.toml for heat and peak (NAO 120), else 10]
     #[arg(long, value_name = "MM", value_parser = super::passage::height, allow_negative_numbers = true)]
     pub(crate) least_advance_mm: Option<f64>,
     /// cycle: largest torque that a shoulder's servo may demand, N·m [default: any]

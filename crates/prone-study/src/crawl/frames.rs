@@ -17,6 +17,8 @@ const INSTANTS: usize = 6;
 /// Width of a frame, pixels.
 const WIDTH: usize = 1200;
 
+// Lengths are those at scale 1 of `camera::scale`.
+
 /// Room ahead of and behind the root over the whole way, m: a robot stretched out, and a little.
 const BEHIND: f64 = 0.45;
 const AHEAD: f64 = 0.45;
@@ -104,7 +106,9 @@ fn under(world: &World, gait: &str, crawl: &Crawl) -> Result<Option<Frames>, Fra
     let away = |row: &Row| (row.ground_from_root.origin().x() - middle.x).abs();
     let rows = crawl.rows.iter().zip(&crawl.snapshots);
     let nearest = rows.min_by(|a, b| away(a.0).total_cmp(&away(b.0)));
-    let Some((row, snapshot)) = nearest.filter(|(row, _)| away(row) <= NEAR) else {
+    let Some((row, snapshot)) =
+        nearest.filter(|(row, _)| away(row) <= NEAR * camera::scale(world.robot()))
+    else {
         return Ok(None);
     };
     let ceiling_mm = (middle.z - obstacle.half_edges.z) * 1e3;
@@ -132,11 +136,13 @@ fn under(world: &World, gait: &str, crawl: &Crawl) -> Result<Option<Frames>, Fra
 
 /// One robot, from its right and low.
 fn close(world: &World, row: &Row, snapshot: &Snapshot, from: DVec3) -> Picture {
+    let scale = camera::scale(world.robot());
     let root = row.ground_from_root.origin().metres();
-    let target = DVec3::new(root.x, root.y, MIDDLE_CLOSE);
-    let distance = DISTANCE * WIDTH_CLOSE;
+    let target = DVec3::new(root.x, root.y, MIDDLE_CLOSE * scale);
+    let shown = WIDTH_CLOSE * scale;
+    let distance = DISTANCE * shown;
     let (width, height) = SIZE_CLOSE;
-    let shown = WIDTH_CLOSE * height as f64 / width as f64;
+    let shown = shown * height as f64 / width as f64;
     let camera = Camera {
         position: target + distance * from.normalize(),
         target,
@@ -181,19 +187,21 @@ fn sequence(world: &World, gait: &str, crawl: &Crawl) -> Result<Option<Frames>, 
     let (low, high) = xs.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
         (low.min(x), high.max(x))
     });
-    let (low, high) = (low - BEHIND, high + AHEAD);
+    let scale = camera::scale(world.robot());
+    let (low, high) = (low - BEHIND * scale, high + AHEAD * scale);
     let width = high - low;
     let y = f64::midpoint(
         first.ground_from_root.origin().metres().y,
         last.ground_from_root.origin().metres().y,
     );
-    let target = DVec3::new(f64::midpoint(low, high), y, MIDDLE);
+    let target = DVec3::new(f64::midpoint(low, high), y, MIDDLE * scale);
     let direction = DVec3::new(0.0, -1.0, RISE).normalize();
+    let height = HEIGHT * scale;
     let distance = DISTANCE * width;
     let camera = Camera {
         position: target + distance * direction,
         target,
-        vertical_fov: 2.0 * (HEIGHT / 2.0 / distance).atan(),
+        vertical_fov: 2.0 * (height / 2.0 / distance).atan(),
         up: DVec3::Z,
         inside: None,
     };
@@ -202,7 +210,7 @@ fn sequence(world: &World, gait: &str, crawl: &Crawl) -> Result<Option<Frames>, 
         clippy::cast_sign_loss,
         reason = "some hundred pixels"
     )]
-    let size = (WIDTH, (WIDTH as f64 * HEIGHT / width).round() as usize);
+    let size = (WIDTH, (WIDTH as f64 * height / width).round() as usize);
     let instants = instants(crawl);
     let count = instants.len();
     let pictures: Vec<Picture> = instants

@@ -184,8 +184,8 @@ pub fn for_heat(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
 
 /// For a confirmation: one thing changed at a time, three cycles each. Stiff servos stand beside it,
 /// and servos that command as much speed as the fastest joint of the robot has, where the robot's
-/// law cuts earlier (the NAO's at 3 rad/s) and limbs lag behind the plan: no search of the advance looks at
-/// them.
+/// law cuts earlier (the NAO's at 3 rad/s) and limbs lag behind the plan: no search of the advance
+/// looks at them.
 ///
 /// # Errors
 /// [`SettingError`].

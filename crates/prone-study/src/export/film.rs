@@ -12,6 +12,8 @@ use prone_sim::{Snapshot, World};
 
 use crate::recorded::Recorded;
 
+// Lengths are those at scale 1 of `camera::scale`.
+
 /// Room ahead of and behind the root over the whole way, m: a robot stretched out, and a little.
 const MARGIN: f64 = 0.45;
 
@@ -251,9 +253,10 @@ impl<'a> Film<'a> {
             (DVec3::INFINITY, DVec3::NEG_INFINITY),
             |(low, high), root| (low.min(root), high.max(root)),
         );
-        let width = high.x - low.x + 2.0 * MARGIN;
+        let scale = camera::scale(self.world.robot());
+        let width = high.x - low.x + 2.0 * MARGIN * scale;
         let middle = low.midpoint(high);
-        let target = DVec3::new(middle.x, middle.y, MIDDLE);
+        let target = DVec3::new(middle.x, middle.y, MIDDLE * scale);
         let distance = DISTANCE * width;
         Camera {
             position: target + distance * DVec3::new(0.0, -1.0, RISE).normalize(),
@@ -271,10 +274,12 @@ impl<'a> Film<'a> {
             .partition_point(|row| row.time_s < time_s)
             .min(rows.len() - 1);
         let mut target = self.way[near];
-        target.z = MIDDLE;
-        let camera = Camera::three_quarter(target);
+        let scale = camera::scale(self.world.robot());
+        target.z = MIDDLE * scale;
+        let shown = (FOLLOWED.0 * scale, FOLLOWED.1 * scale);
+        let camera = Camera::three_quarter(target, scale);
         Camera {
-            vertical_fov: self.field_of_view(FOLLOWED, camera.position.distance(target)),
+            vertical_fov: self.field_of_view(shown, camera.position.distance(target)),
             ..camera
         }
     }

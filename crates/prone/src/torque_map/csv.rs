@@ -28,7 +28,8 @@ mod write;
 pub use read::{ParseError, comments, parse, parse_recorded};
 pub use write::write;
 
-/// Names of the columns, in order.
+/// Names of the columns, in order. Those of the joint angles are the original author's, and part of
+/// the format: they mean ankle, knee, hip and shoulder of the chain, whatever a robot calls its joints.
 pub const COLUMNS: [&str; 18] = [
     "theta1",
     "theta2",
