@@ -17,14 +17,16 @@
 mod course;
 mod crawler;
 mod drive;
+mod error;
 mod pilot;
 mod planned;
 mod slope;
 mod timing;
 
 pub use course::PhaseKind;
-pub use crawler::{Begin, Crawler, CrawlerError, Ended, Event, Halt, Program};
+pub use crawler::{Begin, Crawler, Ended, Event, Halt, Program};
 pub use drive::{DriveError, Watch, drive};
+pub use error::CrawlerError;
 pub use pilot::{Decision, HoldHeading, HoldLine, Moment, Pilot, PilotError, Stage, Straight};
 pub use planned::FirstPose;
 pub use slope::SlopeAware;

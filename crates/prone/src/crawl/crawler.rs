@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use crate::gait::cycle::{CheckedCycle, Cycle, CycleError, Easing, TimeScale};
-use crate::mapping::MappingError;
+use crate::gait::cycle::{CheckedCycle, Cycle, Easing, TimeScale};
 use crate::port::{JointCommand, Senses};
 use crate::robot::{JointAngles, Range, Robot};
 
 use super::course::{Course, PhaseKind};
+use super::error::CrawlerError;
 use super::pilot::{Decision, Moment, Pilot, PilotError, Stage};
 use super::planned::{FirstPose, PlanError, Planned};
 use super::timing::{Delivery, Timing};
@@ -75,93 +75,6 @@ pub enum Event {
     CycleEnded,
     /// The crawl has ended; whatever comes next goes on from [`Crawler::commanded`].
     Ended(Ended),
-}
-
-/// Why a crawl cannot begin or go on.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum CrawlerError {
-    /// The pilot, or the beginning, asks for a cycle that is not there.
-    #[error("there is no cycle {asked}: there are {cycles}")]
-    NoCycle {
-        /// Its index.
-        asked: usize,
-        /// How many there are.
-        cycles: usize,
-    },
-    /// A cycle cannot be planned. Of the first one, before anything is crawled, this is an error of
-    /// its plan alone.
-    #[error("{}{source}", in_cycle(*cycle))]
-    Cycle {
-        /// From 1.
-        cycle: usize,
-        /// The cycle's name.
-        gait: String,
-        /// What is wrong.
-        source: Box<CycleError>,
-    },
-    /// A cycle's mapping does not fit the robot.
-    #[error("in cycle {cycle} ({gait}): {source}")]
-    Mapping {
-        /// From 1.
-        cycle: usize,
-        /// The cycle's name.
-        gait: String,
-        /// What is wrong.
-        source: MappingError,
-    },
-    /// The pilot cannot decide.
-    #[error("in cycle {cycle} ({gait}): {source}")]
-    Pilot {
-        /// From 1.
-        cycle: usize,
-        /// The cycle's name.
-        gait: String,
-        /// What is wrong.
-        source: PilotError,
-    },
-    /// The senses' clock goes back, or is none.
-    #[error("in cycle {cycle} ({gait}): after {before_s} s came {time_s} s")]
-    Time {
-        /// From 1.
-        cycle: usize,
-        /// The cycle's name.
-        gait: String,
-        /// Time of the tick before, s.
-        before_s: f64,
-        /// Time of this tick, s.
-        time_s: f64,
-    },
-    /// The measured joints are not the robot's, or one of them is not measured.
-    #[error("in cycle {cycle} ({gait}): joint angles are not measured: {problem}")]
-    Angles {
-        /// From 1.
-        cycle: usize,
-        /// The cycle's name.
-        gait: String,
-        /// What is wrong.
-        problem: String,
-    },
-    /// A share of the joints' speed limits that no crawl can begin with.
-    #[error("a share of {share} of the joints' speed limits is outside 0..1")]
-    BeginSpeed {
-        /// What was asked for.
-        share: f64,
-    },
-    /// A rest that no crawl can begin with.
-    #[error("a rest of {seconds} s is outside 0..60 s")]
-    Rest {
-        /// What was asked for, s.
-        seconds: f64,
-    },
-}
-
-/// Where a plan is wrong, for messages: nothing has been crawled when the first one is made.
-fn in_cycle(cycle: usize) -> String {
-    if cycle == 1 {
-        String::new()
-    } else {
-        format!("in cycle {cycle}: ")
-    }
 }
 
 /// Longest rest before the first cycle, s.
@@ -618,4 +531,13 @@ fn plan(
 }
 
 /// How long all joints need together, s, where none passes a share of its speed limit.
-fn way_seconds(robot: &Robot, from: &JointAngles, to:
+fn way_seconds(robot: &Robot, from: &JointAngles, to: &JointAngles, speed: f64) -> f64 {
+    let times = robot
+        .joints
+        .iter()
+        .zip(from.pairs(to))
+        .map(|(joint, (from, to))| {
+            Easing::Smoothstep.peak_speed() * (to - from).abs() / (speed * joint.speed_limit)
+        });
+    times.fold(SHORTEST_WAY, f64::max)
+}

@@ -2,7 +2,8 @@
 
 use crate::port::{Command, JointCommand, Pace, PortError, Sense, Senses, Stop};
 
-use super::crawler::{Crawler, CrawlerError, Halt};
+use super::crawler::{Crawler, Halt};
+use super::error::CrawlerError;
 use super::pilot::Pilot;
 
 /// Looks on while a crawler is driven.
