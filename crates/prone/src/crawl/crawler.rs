@@ -618,4 +618,13 @@ fn plan(
 }
 
 /// How long all joints need together, s, where none passes a share of its speed limit.
-fn way_seconds(robot: &Robot, from: &JointAngles, to:
+fn way_seconds(robot: &Robot, from: &JointAngles, to: &JointAngles, speed: f64) -> f64 {
+    let times = robot
+        .joints
+        .iter()
+        .zip(from.pairs(to))
+        .map(|(joint, (from, to))| {
+            Easing::Smoothstep.peak_speed() * (to - from).abs() / (speed * joint.speed_limit)
+        });
+    times.fold(SHORTEST_WAY, f64::max)
+}
