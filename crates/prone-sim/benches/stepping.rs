@@ -8,7 +8,7 @@ use std::f64::consts::FRAC_PI_2;
 use std::sync::OnceLock;
 
 use prone_files::shipped;
-use prone_sim::regime::STEPS_PER_CONTROL;
+use prone_sim::regime::CONTROL_STEP;
 use prone_sim::{LoadedRobot, Placement, Regime, RobotFiles, Simulation, World};
 
 fn main() {
@@ -48,8 +48,9 @@ fn control_step(bencher: divan::Bencher) {
 #[divan::bench(sample_count = 300, sample_size = 4)]
 fn reference_bare_engine_loop(bencher: divan::Bencher) {
     let mut data = settled().into_engine_data();
+    let steps = Regime::TORQUE_STUDY.steps_in(CONTROL_STEP);
     bencher.bench_local(|| {
-        for _ in 0..STEPS_PER_CONTROL {
+        for _ in 0..steps {
             data.step();
         }
     });

@@ -83,13 +83,6 @@ impl Camera {
         Self::from_direction(middle, DVec3::new(0.05, -1.0, 0.20), scale, Self::SIDE_FOV)
     }
 
-    /// From the robot's left and slightly above: the robot crawls to the left.
-    ///
-    /// `middle` is the middle of the robot, m, in the ground frame; `scale` is its [`scale`].
-    pub fn left_side(middle: DVec3, scale: f64) -> Self {
-        Self::from_direction(middle, DVec3::new(0.05, 1.0, 0.20), scale, Self::SIDE_FOV)
-    }
-
     /// From the front, the right and above: both arms and the head are visible.
     ///
     /// `middle` is the middle of the robot, m, in the ground frame; `scale` is its [`scale`].

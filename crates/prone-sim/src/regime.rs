@@ -186,9 +186,6 @@ impl Regime {
     }
 }
 
-/// Engine steps of the usual length in one control step.
-pub const STEPS_PER_CONTROL: usize = 20;
-
 /// Servo law of the recordings.
 pub const RECORDINGS: ServoLaw = ServoLaw {
     rate: 20.0,
@@ -209,7 +206,13 @@ mod tests {
 
     #[test]
     fn a_control_step_is_a_whole_number_of_engine_steps() {
-        assert!((STEPS_PER_CONTROL as f64 * TIME_STEP - CONTROL_STEP).abs() < 1e-15);
+        for regime in [
+            Regime::TORQUE_STUDY,
+            Regime::LOCOMOTION.with_time_step(0.001),
+        ] {
+            let steps = regime.steps_in(CONTROL_STEP) as f64;
+            assert!((steps * regime.time_step - CONTROL_STEP).abs() < 1e-15);
+        }
     }
 
     /// Of a robot with other servos than the recordings' one.

@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 use mujoco_rs::prelude::*;
 
 use prone::frames::{Ground, Link, Point, Root, Transform};
-use prone::robot::{BodyPoses, ContactGroup, JointAngles, JointId, Robot};
+use prone::robot::{BodyPoses, ContactGroup, JointAngles, Robot};
 
 use crate::regime::CONTROL_STEP;
 use crate::world::World;
@@ -221,11 +221,6 @@ impl Simulation {
     /// Joint angles now, rad.
     pub fn joint_angles(&self) -> JointAngles {
         posture(self.robot(), self.data.qpos())
-    }
-
-    /// One joint's angle now, rad.
-    pub fn joint_angle(&self, joint: JointId) -> f64 {
-        self.data.qpos()[FREE_JOINT + joint.0]
     }
 
     /// Pose of the root now.

@@ -13,6 +13,7 @@ pub mod figure_list;
 pub mod figures;
 pub mod frames;
 pub mod gait_sheet;
+mod markup;
 pub mod optimize;
 pub mod output;
 mod page_head;

@@ -160,20 +160,6 @@ fn picture_without_pixels_is_no_png() {
 }
 
 #[test]
-fn left_mirrors_right() {
-    let middle = DVec3::new(0.4, 0.1, 0.09);
-    let (left, right) = (
-        Camera::left_side(middle, 1.0),
-        Camera::right_side(middle, 1.0),
-    );
-    let mirrored = right.position.with_y(2.0 * middle.y - right.position.y);
-    assert!(
-        left.position.distance(mirrored) < 1e-12,
-        "{left:?} does not mirror {right:?}"
-    );
-}
-
-#[test]
 fn looking_straight_down_has_forward_at_the_top() {
     let camera = Camera {
         position: DVec3::Z,

@@ -11,6 +11,7 @@ use std::fmt::Write as _;
 use prone::robot::Robot;
 
 use super::key_frames::KeyFrames;
+use crate::markup::escaped;
 
 /// Frames per second of a timeline unless one changes it.
 pub const FRAME_RATE: f64 = 25.0;
@@ -114,14 +115,6 @@ fn tangent(side: &str, handle: f64) -> String {
     )
 }
 
-/// A text inside an attribute.
-pub(super) fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -131,6 +124,5 @@ mod tests {
         let degrees = [0.0, 0.0, 0.0, 1.0, 1.0];
         let needed: Vec<bool> = (0..5).map(|place| is_needed(&degrees, place)).collect();
         assert_eq!(needed, [true, false, true, true, true]);
-        assert_eq!(escaped("a<\"b\"&"), "a&lt;&quot;b&quot;&amp;");
     }
 }

@@ -4,6 +4,7 @@
 
 use super::font::Weight;
 use super::style::{Colour, FONT_FAMILY, Fill, INK, Marker, PAPER, Shape, Stroke};
+use crate::markup::escaped;
 
 /// A place on the canvas: right, down.
 pub(super) type Point = (f64, f64);
@@ -225,14 +226,14 @@ impl Canvas {
         self.element(&format!(
             "<text x=\"{x}\" y=\"{y}\" font-size=\"{}\" text-anchor=\"{anchor}\"{weight}{turn}{edge}>{}</text>",
             number(style.size),
-            escape(text)
+            escaped(text)
         ));
     }
 
     /// Draws with everything outside `area` cut off.
     pub(super) fn clipped(&mut self, area: Rect, draw: impl FnOnce(&mut Self)) {
         self.clips += 1;
-        let id = format!("{}-clip-{}", escape(&self.stem), self.clips);
+        let id = format!("{}-clip-{}", escaped(&self.stem), self.clips);
         self.element(&format!(
             "<clipPath id=\"{id}\"><rect{}/></clipPath>\n<g clip-path=\"url(#{id})\">",
             rectangle(area)
@@ -256,8 +257,8 @@ impl Canvas {
              viewBox=\"0 0 {width} {height}\" role=\"img\" font-family=\"{FONT_FAMILY}\" \
              fill=\"{}\">\n<title>{}</title>\n<desc>{}</desc>\n{}</svg>\n",
             hex(INK),
-            escape(title),
-            escape(description),
+            escaped(title),
+            escaped(description),
             self.body
         )
     }
@@ -335,13 +336,6 @@ fn number(value: f64) -> String {
     }
 }
 
-fn escape(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -350,10 +344,5 @@ mod tests {
     fn numbers_are_short() {
         let written = [1.0, 100.0, 0.125, -0.001, 12.5].map(number);
         assert_eq!(written, ["1", "100", "0.12", "0", "12.5"]);
-    }
-
-    #[test]
-    fn markup_in_a_text_is_escaped() {
-        assert_eq!(escape("a < b & \"c\""), "a &lt; b &amp; &quot;c&quot;");
     }
 }
