@@ -42,7 +42,7 @@ pub struct RobotSource {
     pub compiled: &'static str,
 }
 
-/// The NAO H25 V4, the robot where none is named.
+/// The NAO H25 V4.
 pub const NAO: RobotSource = RobotSource {
     version: "v4",
     folder: "robots/nao/v4",
@@ -139,6 +139,27 @@ pub(crate) fn family_of(robot: &RobotSource) -> Option<&'static FamilySource> {
     families().find(|family| family.versions.contains(robot))
 }
 
+/// The robot where none is named: the default version of the first family.
+///
+/// # Errors
+/// [`FileError`] if the embedded family does not parse or names no version that ships, which a test
+/// excludes.
+pub fn default_robot() -> Result<&'static RobotSource, FileError> {
+    default_version(&FAMILIES[0])
+}
+
+/// The version that a family stands for.
+fn default_version(family: &'static FamilySource) -> Result<&'static RobotSource, FileError> {
+    let (file, text) = (&family.toml_name(), family.toml);
+    let default = FamilyFile::parse(file, text)?.default;
+    let mut versions = family.versions.iter();
+    let found = versions.find(|robot| robot.version == default.get_ref());
+    found.ok_or_else(|| {
+        let message = format!("no version {} ships", default.get_ref());
+        Source { file, text }.error(default.span(), message)
+    })
+}
+
 /// The shipped robot of a name: `nao` for the default version of a family, `nao/v4` for another one;
 /// `None` for any other name.
 ///
@@ -150,12 +171,8 @@ pub fn robot(name: &str) -> Option<Result<&'static RobotSource, FileError>> {
         Some((family, version)) => (family, Some(version)),
     };
     let family = families().find(|known| known.name == family)?;
-    let version = match version {
-        Some(version) => version.to_owned(),
-        None => match FamilyFile::parse(&family.toml_name(), family.toml) {
-            Ok(file) => file.default.into_inner(),
-            Err(error) => return Some(Err(error)),
-        },
+    let Some(version) = version else {
+        return Some(default_version(family));
     };
     let mut versions = family.versions.iter();
     versions.find(|robot| robot.version == version).map(Ok)
@@ -332,6 +349,7 @@ mod tests {
             assert_eq!(RobotFiles::shipped(default).hash(), read.hash());
         }
         assert_eq!(robot("nao").unwrap().unwrap(), &NAO);
+        assert_eq!(default_robot().unwrap(), &NAO);
         assert!(robot("nao/v0").is_none());
         assert!(robot("pepper").is_none());
     }

@@ -21,7 +21,7 @@ pub(crate) enum CrawlCommand {
 
 #[derive(Debug, clap::Args)]
 #[command(mut_arg("argument", |arg| {
-    arg.help("Cycle: a name that ships with prone (low-175, thesis-nominal, …), or a file")
+    arg.help("Cycle: a name, of the robot's own or that ships (low-175, thesis-nominal, …), or a file")
 }))]
 #[command(mut_arg("gait", |arg| arg.help("Cycle, in place of the argument")))]
 #[command(after_help = "\

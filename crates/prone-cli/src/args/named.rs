@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, clap::Args)]
 #[group(required = true, multiple = false)]
 pub(crate) struct GaitArg {
-    /// Gait or cycle: a name that ships with prone (nominal, low-175, …), or a file
+    /// Gait or cycle: a name, of the robot's own or that ships (nominal, low-175, …), or a file
     #[arg(value_name = "GAIT")]
     argument: Option<String>,
     /// Gait or cycle, in place of the argument
@@ -27,7 +27,7 @@ impl GaitArg {
 /// Any number of cycles, as arguments or as `--gait`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct GaitArgs {
-    /// Cycles to try, names or files [default: all that ship]
+    /// Cycles to try, names or files [default: those of the robot's [defaults], of the NAO all]
     #[arg(value_name = "GAIT")]
     arguments: Vec<String>,
     /// Cycle to try, in place of the arguments; may be given several times

@@ -11,7 +11,7 @@ use super::pricing::PricingArgs;
 
 #[derive(Debug, clap::Args)]
 #[command(mut_arg("argument", |arg| {
-    arg.help("Gait: a name that ships with prone (nominal, optimal, …), or a file")
+    arg.help("Gait: a name, of the robot's own or that ships (nominal, optimal, …), or a file")
 }))]
 #[command(mut_arg("gait", |arg| arg.help("Gait, in place of the argument")))]
 #[command(after_help = "\

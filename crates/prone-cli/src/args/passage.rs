@@ -13,7 +13,7 @@ Examples:
   prone crawl under --ceiling-mm 172 --margin-mm 1 --json
   prone crawl under --ceiling-mm 163.5 --margin-mm 1 --seed 1 --gait-out lowest.toml
 
-Every cycle that ships is crawled, in the locomotion regime, and the fastest that stays below the
+Each GAIT is crawled, in the locomotion regime, and the fastest that stays below the
 ceiling by the margin is the answer. Where none does and a seed is given, one is searched. The exit
 code is 0 for either answer.")]
 pub(crate) struct UnderArgs {
@@ -23,7 +23,7 @@ pub(crate) struct UnderArgs {
     /// Distance that has to stay between robot and ceiling, mm
     #[arg(long, value_name = "MM", default_value = "3", value_parser = margin, allow_negative_numbers = true)]
     pub(crate) margin_mm: f64,
-    /// Search where nothing that ships fits, with this seed
+    /// Search where no GAIT fits, with this seed
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub(crate) seed: Option<u64>,
     /// Most evaluations of that search
@@ -75,7 +75,7 @@ pub(crate) struct FrontierArgs {
     #[arg(long, value_name = "N", default_value = "1600", value_parser = clap::value_parser!(u64).range(16..=10_000_000))]
     pub(crate) budget: u64,
     /// Cycles about which is searched, names or files: the one that fits and comes farthest, else
-    /// the lowest [default: low-175 and low-165]
+    /// the lowest [default: those of the robot's [defaults], of the NAO low-175 and low-165]
     #[arg(long, value_name = "GAIT")]
     pub(crate) from: Vec<String>,
     /// Search cycles that can be steered: at the largest turn command they turn 6° a cycle, and

@@ -44,7 +44,8 @@ pub(crate) struct PricingArgs {
     #[arg(long, value_enum)]
     pub(crate) limits: Option<LimitsName>,
     /// dynamics: trunk and legs carry no larger share of the weight than in this gait
-    /// [default: optimal, or the gait of --from on a robot without a published chain]
+    /// [default: that of the robot's [defaults], of the NAO optimal; the gait of --from where the robot
+    /// cannot follow it]
     #[arg(long, value_name = "GAIT")]
     pub(crate) body_share_of: Option<String>,
     /// published: least height of the hip's centre, mm [default: 40]
@@ -53,7 +54,8 @@ pub(crate) struct PricingArgs {
     /// published: how far outside the table's limits an angle may lie, rad [default: 0]
     #[arg(long, value_name = "RAD", value_parser = not_negative, allow_negative_numbers = true)]
     pub(crate) limit_tolerance_rad: Option<f64>,
-    /// Gait whose mapping, arms and ends of the pull hold: a name or a file [default: nominal; to
+    /// Gait whose mapping, arms and ends of the pull hold: a name or a file [default: that of
+    /// the robot's [defaults], of the NAO nominal; to
     /// price a gait of another mapping or other arms, that gait itself]
     #[arg(long, value_name = "GAIT")]
     pub(crate) from: Option<String>,

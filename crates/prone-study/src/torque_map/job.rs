@@ -137,7 +137,7 @@ impl<'r> Job<'r> {
         let robot = &self.robot.robot().name;
         let files = self.robot.files();
         let member = files.member.as_ref().map_or_else(String::new, |member| {
-            format!(", version {} of {}", member.version, member.family)
+            format!(" (version {} of {})", member.version, member.family)
         });
         vec![
             format!("torque map by prone {version}, commit {commit}"),
