@@ -10,7 +10,7 @@ mod report;
 mod torque_map;
 mod view;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::{Parser, Subcommand};
 
@@ -18,7 +18,7 @@ use prone::gait::PhaseDuration;
 
 pub(crate) use crawl::{CrawlCommand, CrawlRunArgs, ServoName, TimeStepName};
 pub(crate) use export::{ExportArgs, Format, ViewName};
-pub(crate) use named::{GaitArg, RobotArg};
+pub(crate) use named::{GaitArg, RobotArg, RobotArgument};
 pub(crate) use report::ReportArgs;
 pub(crate) use torque_map::{BuildArgs, CompareArgs, PlotArgs, SourceArg, TorqueMapCommand};
 pub(crate) use view::ViewArgs;
@@ -170,21 +170,11 @@ Examples:
   prone robot check
   prone robot check robots/nao --json")]
 pub(crate) struct RobotCheckArgs {
-    /// Robot, in place of --robot
-    #[arg(value_name = "ROBOT", conflicts_with = "robot")]
-    named: Option<PathBuf>,
     #[command(flatten)]
-    robot: RobotArg,
+    pub(crate) robot: RobotArgument,
     /// Print everything as JSON
     #[arg(long)]
     pub(crate) json: bool,
-}
-
-impl RobotCheckArgs {
-    /// As typed, where one is named.
-    pub(crate) fn robot(&self) -> Option<&Path> {
-        self.named.as_deref().or(self.robot.name())
-    }
 }
 
 #[derive(Debug, clap::Args)]
@@ -197,10 +187,9 @@ Examples:
 The file holds all that prone knows of the robot, and the hash of robot.toml and its model: once one
 of them has changed it is stale and refused. The same robot gives the same bytes.")]
 pub(crate) struct RobotCompileArgs {
-    /// Robot folder with robot.toml and its model [default: the NAO that ships with prone]
-    #[arg(value_name = "DIR")]
-    pub(crate) robot: Option<PathBuf>,
-    /// The file [default: robot.compiled.json beside the robot.toml of DIR]
+    #[command(flatten)]
+    pub(crate) robot: RobotArgument,
+    /// The file [default: robot.compiled.json beside the robot.toml of a folder]
     #[arg(long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
     /// Print what was written as JSON

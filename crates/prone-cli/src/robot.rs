@@ -8,7 +8,7 @@ use std::path::Path;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use prone_files::{compiled_robot, shipped};
+use prone_files::shipped;
 use prone_sim::{LoadedRobot, Regime, RobotFiles, World};
 use prone_study::robot_sheet::{self, ChainSheet, RobotSheet};
 
@@ -38,7 +38,7 @@ pub(crate) fn said(robot: &LoadedRobot) -> Value {
 }
 
 pub(crate) fn check(args: &RobotCheckArgs) -> Result<(), Failure> {
-    let loaded = load(args.robot())?;
+    let loaded = load(args.robot.name())?;
     for regime in [Regime::TORQUE_STUDY, Regime::LOCOMOTION] {
         World::new(&loaded, regime).map_err(Failure::input)?;
     }
@@ -56,10 +56,9 @@ pub(crate) fn check(args: &RobotCheckArgs) -> Result<(), Failure> {
         return Ok(());
     }
     print(&checked.sheet, &loaded.files().folder, &mut out)?;
-    if let Some(compiled) = &checked.compiled {
-        let file = compiled_robot::FILE_NAME;
-        let state = compiled.refused.as_deref().unwrap_or("fresh");
-        writeln!(out, "\n{file}: {state}")?;
+    let refused = checked.compiled.and_then(|compiled| compiled.refused);
+    if let Some(refused) = refused {
+        writeln!(out, "\n{refused}")?;
     }
     writeln!(out, "\nvalid")?;
     Ok(())

@@ -81,12 +81,17 @@ fn a_file_goes_over_none_that_was_read() {
     assert!(!home.path().join("robot/robot.compiled.json").exists());
     for args in [&["compile"][..], &["compile", "nao"]] {
         let message = refused(&prone(home.path(), args));
-        insta::assert_snapshot!(message, @"error: the NAO H25 V4 ships with prone and has no folder here: say where the file goes with --out");
+        assert!(
+            message.ends_with(
+                "ships with prone and has no folder here: say where the file goes with --out\n"
+            ),
+            "{message}"
+        );
     }
 }
 
 #[test]
-fn checking_a_robot_says_whether_its_compiled_file_is_fresh() {
+fn checking_a_robot_says_when_its_compiled_file_is_stale() {
     let home = home();
     let state = || {
         let text = said(&prone(home.path(), &["check", "robot"]));
@@ -99,14 +104,13 @@ fn checking_a_robot_says_whether_its_compiled_file_is_fresh() {
     };
     assert_eq!(state(), (None, None));
     said(&prone(home.path(), &["compile", "robot"]));
-    let fresh = "robot.compiled.json: fresh".to_owned();
-    assert_eq!(state(), (Some(fresh), Some(true)));
+    assert_eq!(state(), (None, Some(true)));
 
     let toml = alone(NAO.toml).replacen("span_mm = 430.0", "span_mm = 431.0", 1);
     fs::write(home.path().join("robot/robot.toml"), toml).unwrap();
     let (line, fresh) = state();
     let line = line.unwrap();
-    let stale = "robot.compiled.json: robot/robot.compiled.json is stale: it was compiled from ";
+    let stale = "robot/robot.compiled.json is stale: it was compiled from ";
     assert!(line.starts_with(stale), "{line}");
     assert_eq!(fresh, Some(false));
     said(&prone(home.path(), &["compile", "robot"]));

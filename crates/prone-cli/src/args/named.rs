@@ -61,3 +61,20 @@ impl RobotArg {
         self.robot.as_deref()
     }
 }
+
+/// Which robot, as the argument or as `--robot`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct RobotArgument {
+    /// Robot, in place of --robot
+    #[arg(value_name = "ROBOT", conflicts_with = "robot")]
+    argument: Option<PathBuf>,
+    #[command(flatten)]
+    option: RobotArg,
+}
+
+impl RobotArgument {
+    /// The name or the folder, as typed; none where none was.
+    pub(crate) fn name(&self) -> Option<&Path> {
+        self.argument.as_deref().or(self.option.name())
+    }
+}

@@ -13,7 +13,7 @@ use crate::args::RobotCompileArgs;
 use crate::{Failure, robot, table_file};
 
 pub(crate) fn run(args: &RobotCompileArgs) -> Result<(), Failure> {
-    let loaded = robot::load(args.robot.as_deref())?;
+    let loaded = robot::load(args.robot.name())?;
     let out = place(args, &loaded)?;
     let engine = prone_sim::engine_version();
     let compiled =

@@ -32,6 +32,73 @@ fn identity_the_shipped_text_is_written_again_byte_for_byte() {
     assert_eq!(nao().text(), shipped::NAO.compiled);
 }
 
+/// What the keys say stands under them: numbers as `robot.toml` and the model have them.
+#[test]
+fn reference_keys_hold_what_the_sources_say() {
+    let document: Value = serde_json::from_str(shipped::NAO.compiled).unwrap();
+    let joints = document["robot"]["joints"].as_array().unwrap();
+    let knee = joints.iter().find(|it| it["name"] == "LKneePitch").unwrap();
+    let (motor, control) = (&knee["motor"], &document["robot"]["control"]);
+    let sole = &document["robot"]["chain"]["left"]["toe"]["position_m"];
+    let published = &document["robot"]["chain"]["published"];
+    let imu = &document["robot"]["imu"];
+    let rpm = std::f64::consts::TAU / 60.0;
+    for (what, value, expected) in [
+        ("lower", &knee["range_rad"][0], -0.0923),
+        ("upper", &knee["range_rad"][1], 2.1125),
+        ("axis", &knee["axis"][1], 1.0),
+        ("effort", &knee["effort_limit_nm"], 3.023),
+        ("speed", &knee["speed_limit_rad_s"], 6.4),
+        ("gain", &knee["servo_gain_nms"], 4.0),
+        ("ratio", &motor["ratio"], 130.85),
+        ("nominal", &motor["nominal_nm"], 0.0161 * 130.85),
+        ("stall", &motor["stall_nm"], 0.068 * 130.85),
+        (
+            "no load",
+            &motor["no_load_speed_rad_s"],
+            8300.0 * rpm / 130.85,
+        ),
+        ("toe", &sole[0], 0.0935),
+        ("l4", &published["links_m"][3], 0.1885),
+        ("ankle", &published["ankle_offset_rad"], 60_f64.to_radians()),
+        ("roll", &published["shoulder_roll_rad"], 22_f64.to_radians()),
+        (
+            "noise",
+            &imu["accelerometer_m_s2"]["standard_deviation"],
+            0.039,
+        ),
+        ("bias", &imu["gyroscope_rad_s"]["bias_bound"], 0.01),
+        ("step", &control["command_step_s"], 0.01),
+        ("rate", &control["servo_rate_per_s"], 20.0),
+        ("clip", &control["servo_speed_rad_s"], 3.0),
+        ("yaw", &control["steering"]["yaw"], 0.9),
+        ("lateral", &control["steering"]["lateral_rad_m"], 3.5),
+        ("sum", &control["steering"]["lateral_sum_rad_m"], 0.35),
+        ("uphill", &control["uphill_rad"], 1.5_f64.to_radians()),
+    ] {
+        let value = value.as_f64().unwrap();
+        assert!((value - expected).abs() < 1e-12, "{what}: {value}");
+    }
+}
+
+/// A rotation has its real part first.
+#[test]
+fn a_turn_is_written_with_its_real_part_first() {
+    let mut robot = nao().into_robot();
+    let turn = glam::DQuat::from_rotation_y(0.2);
+    let site = robot.imu.as_mut().unwrap();
+    site.root_from_sensor = prone::frames::Transform::new(turn, glam::DVec3::X);
+    let compiled = CompiledRobot::new(&robot, &sources(), String::new()).unwrap();
+    assert_eq!(compiled.robot(), &robot);
+    let document: Value = serde_json::from_str(&compiled.text()).unwrap();
+    let pose = &document["robot"]["imu"]["root_from_sensor"];
+    assert_eq!(
+        pose["quaternion_wxyz"],
+        json!([0.1_f64.cos(), 0.0, 0.1_f64.sin(), 0.0])
+    );
+    assert_eq!(pose["position_m"], json!([1.0, 0.0, 0.0]));
+}
+
 /// Robots that differ from the NAO in numbers of every kind, with digits that no decimal shortens.
 fn robots() -> impl Strategy<Value = Robot> {
     let numbers = proptest::collection::vec(0.01..1.0_f64, 64);
