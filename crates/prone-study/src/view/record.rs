@@ -104,7 +104,13 @@ fn facts(run: &RecordedRun) -> Vec<(&'static str, String)> {
             gait.map(|text| format!("{}: {text}", run.gait.name)),
         ),
         ("robot", Some(run.robot.name.clone())),
-        ("robot's version", Some(run.robot.version_name())),
+        (
+            "robot's version",
+            run.robot
+                .version
+                .is_some()
+                .then(|| run.robot.version_name()),
+        ),
         ("scene", Some(run.scene.name.clone())),
         ("regime", run.said("/regime/name").map(friction)),
         ("steering", run.said("/options/steering")),

@@ -36,7 +36,8 @@ pub enum Begin {
         rest: f64,
     },
     /// Wherever the joints are when it is first asked: they go to the extension on a straight line
-    /// from rest to rest, all at once, and rest there. Nothing looks at what is in their way: this is
+    /// from rest to rest, all at once, and rest there. A joint that is measured beyond its stop
+    /// begins at the stop: nothing is commanded beyond. Nothing looks at what is in their way: this is
     /// for a robot that lies on its belly.
     Lying {
         /// Share of each joint's speed limit that is used, above 0, at most 1.
@@ -312,13 +313,13 @@ impl<P: Pilot> Crawler<P> {
     fn begin(&mut self, senses: &Senses) -> Result<(), CrawlerError> {
         match self.program.begin {
             Begin::Lying { speed, .. } => {
-                let (from, to) = (&senses.angles, self.planned.checked.extension());
-                let seconds = way_seconds(&self.robot, from, to, speed);
-                let course = Course::Way {
-                    from: from.clone(),
-                    to: to.clone(),
-                    seconds,
-                };
+                let from = senses.angles.map(|joint, angle| {
+                    let stop = self.stops[joint.0];
+                    angle.clamp(stop.lower, stop.upper)
+                });
+                let to = self.planned.checked.extension().clone();
+                let seconds = way_seconds(&self.robot, &from, &to, speed);
+                let course = Course::Way { from, to, seconds };
                 self.doing = Doing::Way(self.activity_of(course, senses.time));
                 Ok(())
             }
