@@ -150,10 +150,7 @@ pub fn confirm(settings: &[Setting], cycle: &Cycle, ceiling: f64) -> Confirmed {
             Ok(trial) => {
                 let advance = *first.get_or_insert(trial.advance);
                 let kept = trial.advance / advance;
-                let enough = kept >= setting.spec.role.keep().unwrap_or(HOLDS);
-                let directed = setting.spec.role.misdirected(&trial) <= 0.0;
-                let holding = trial.top.0 < ceiling && enough && directed && trial.advance > 0.0;
-                holds &= setting.spec.role == Role::Beside || holding;
+                holds &= does_hold(setting.spec.role, &trial, kept, ceiling);
                 row(setting, &trial, kept)
             }
             Err(error) => {
@@ -167,6 +164,14 @@ pub fn confirm(settings: &[Setting], cycle: &Cycle, ceiling: f64) -> Confirmed {
         holds,
         settings: rows,
     }
+}
+
+/// Whether a cycle does in a setting what its role asks: it stays below the ceiling, m, goes where it
+/// should, advances, and keeps its share of the first setting's advance.
+fn does_hold(role: Role, trial: &Trial, kept: f64, ceiling: f64) -> bool {
+    let enough = kept >= role.keep().unwrap_or(HOLDS);
+    let directed = role.misdirected(trial) <= 0.0;
+    role == Role::Beside || (trial.top.0 < ceiling && enough && directed && trial.advance > 0.0)
 }
 
 fn row(setting: &Setting, trial: &Trial, kept: f64) -> ConfirmedSetting {

@@ -99,3 +99,45 @@ fn where_no_cycle_can_be_crawled_each_says_why() {
     assert!(why.contains("above its limit of"), "{why}");
     assert_eq!(lines.next(), None);
 }
+
+/// What a confirmation asks, one thing at a time.
+#[test]
+fn a_cycle_holds_where_it_is_low_far_and_straight() {
+    let trial = Trial {
+        setting: SettingKind::AsItIs,
+        advance: 0.1,
+        seconds: 4.0,
+        top: (0.17, "head"),
+        heat_per_metre: 50.0,
+        peak_over_limit: (1.0, String::new()),
+        demanded_shoulder: 2.0,
+        shoulder_saturated: 0.0,
+        body_share: 0.1,
+        yaw: 0.03,
+    };
+    let at = |role: Role, kept: f64, ceiling: f64| does_hold(role, &trial, kept, ceiling);
+    assert!(at(Role::Value, 1.0, 0.18));
+    for ceiling in [0.16, 0.17, f64::NAN] {
+        assert!(!at(Role::Value, 1.0, ceiling), "under {ceiling} m");
+        assert!(at(Role::Beside, 0.0, ceiling), "beside");
+    }
+    // A share of its own, or the usual one.
+    for (role, share) in [(Role::Keep(0.6), 0.6), (Role::Value, HOLDS)] {
+        assert!(at(role, share, 0.18));
+        assert!(!at(role, share - 0.01, 0.18));
+        assert!(!at(role, f64::NAN, 0.18));
+    }
+    let straight = |yaw: f64| Role::Straight { yaw, keep: 0.6 };
+    assert!(at(straight(0.04), 1.0, 0.18));
+    assert!(!at(straight(0.02), 1.0, 0.18));
+    assert!(at(Role::Turn(0.02), 1.0, 0.18));
+    assert!(!at(Role::Turn(0.04), 1.0, 0.18));
+    for (advance, yaw) in [(-0.1, 0.03), (0.0, 0.03), (0.1, f64::NAN)] {
+        let bad = Trial {
+            advance,
+            yaw,
+            ..trial.clone()
+        };
+        assert!(!does_hold(straight(0.04), &bad, 1.0, 0.18), "{bad:?}");
+    }
+}

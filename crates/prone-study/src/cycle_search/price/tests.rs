@@ -144,6 +144,27 @@ fn limbs_may_not_be_in_one_another() {
     }
 }
 
+/// Where a cycle is played faster than it is written, its joints have to be fast enough for that; it
+/// does not help that it is played slowly elsewhere.
+#[test]
+fn the_fastest_setting_decides_whether_joints_are_fast_enough() {
+    let robot = nao();
+    let base = cycle("low-175");
+    let refused = |settings: &[Setting]| {
+        let pricer = CyclePricer::new(settings, ADVANCE, &base).unwrap();
+        pricer.broken_in_plan(&base).1
+    };
+    let settings = settings::for_advance(&robot).unwrap();
+    let scales: Vec<f64> = settings.iter().map(|it| it.spec.scale.value()).collect();
+    assert!(scales[1] > 1.0 && scales[2] < 1.0, "{scales:?}");
+    assert_eq!(refused(&settings[..2]), None);
+    let refusal = refused(&settings);
+    assert!(
+        matches!(refusal, Some(Refusal::Plan(CycleError::Speed { .. }))),
+        "{refusal:?}"
+    );
+}
+
 /// What a plan breaks before anything moves, and why it cannot be crawled.
 fn in_plan(base: &Cycle, rules: CycleRules, cycle: &Cycle) -> (f64, Option<Refusal>) {
     let robot = nao();
