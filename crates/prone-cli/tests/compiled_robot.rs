@@ -51,7 +51,10 @@ fn the_file_lies_beside_its_sources_or_where_it_is_asked_for() {
     assert!(said_beside.ends_with(": robot/robot.compiled.json\n"));
     let beside = fs::read(at("robot/robot.compiled.json")).unwrap();
     let compiled = CompiledRobot::read(&at("robot/robot.compiled.json")).unwrap();
-    assert_eq!(compiled.robot(), CompiledRobot::shipped().unwrap().robot());
+    assert_eq!(
+        compiled.robot(),
+        CompiledRobot::shipped(&NAO).unwrap().robot()
+    );
 
     let json = said(&prone(
         home.path(),

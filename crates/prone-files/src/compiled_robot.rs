@@ -44,7 +44,8 @@ use document::stated;
 use crate::error::FileError;
 use crate::plain_name::is_plain;
 use crate::robot_folder::RobotFiles;
-use crate::{shipped, text_file};
+use crate::shipped::RobotSource;
+use crate::text_file;
 
 /// Its name beside the robot's sources.
 pub const FILE_NAME: &str = "robot.compiled.json";
@@ -221,13 +222,12 @@ impl CompiledRobot {
             .map_err(|violation| CompiledRobotError::Violation { file, violation })
     }
 
-    /// The NAO that ships with the program.
+    /// A robot that ships with the program.
     ///
     /// # Errors
     /// [`CompiledRobotError`] if the embedded text does not read, which a test excludes.
-    pub fn shipped() -> Result<Self, CompiledRobotError> {
-        let folder = shipped::NAO.folder;
-        Self::parse(&format!("{folder}/{FILE_NAME}"), shipped::NAO.compiled)
+    pub fn shipped(source: &RobotSource) -> Result<Self, CompiledRobotError> {
+        Self::parse(&format!("{}/{FILE_NAME}", source.folder), source.compiled)
     }
 
     fn from_document(document: Document) -> Result<Self, Violation> {

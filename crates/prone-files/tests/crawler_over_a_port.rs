@@ -216,7 +216,7 @@ impl<P: Pilot> Watch<FakeRobot, P> for Log {
 }
 
 fn nao() -> Arc<Robot> {
-    Arc::new(CompiledRobot::shipped().unwrap().into_robot())
+    Arc::new(CompiledRobot::shipped(&shipped::NAO).unwrap().into_robot())
 }
 
 fn program(most_cycles: usize) -> Program {

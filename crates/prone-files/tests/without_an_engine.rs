@@ -12,7 +12,7 @@ use prone_files::compiled_robot::CompiledRobot;
 use prone_files::shipped;
 
 fn nao() -> Robot {
-    CompiledRobot::shipped().unwrap().into_robot()
+    CompiledRobot::shipped(&shipped::NAO).unwrap().into_robot()
 }
 
 fn plan(robot: &Robot, stops: &[Range], turn: f64) -> CheckedCycle {

@@ -5,84 +5,120 @@ use serde_json::Value;
 use prone::gait::cycle::{CheckedCycle, TimeScale};
 use prone::robot::Robot;
 use prone_files::compiled_robot::{self, CompiledRobot, RobotDocument};
-use prone_files::shipped;
+use prone_files::shipped::{self, RobotSource};
 use prone_sim::{LoadedRobot, RobotFiles};
 
 /// Largest difference of two numbers: the last digits may differ between processors and releases of
 /// the engine.
 const TOLERANCE: f64 = 1e-12;
 
-fn nao() -> LoadedRobot {
-    LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap()
+/// Every robot that ships, with the command that renews its compiled file.
+fn robots() -> impl Iterator<Item = (&'static RobotSource, String)> {
+    let versions = shipped::families().flat_map(|family| family.versions);
+    versions.map(|source| {
+        let folder = source.folder;
+        let renewal = format!("`cargo run --release -- robot compile {folder}` renews it");
+        (source, renewal)
+    })
 }
 
-fn renewal() -> String {
-    let folder = shipped::NAO.folder;
-    format!("`cargo run --release -- robot compile {folder}` renews it")
+fn compiled(source: &RobotSource, renewal: &str) -> CompiledRobot {
+    CompiledRobot::shipped(source).unwrap_or_else(|error| panic!("{error}: {renewal}"))
+}
+
+fn loaded(source: &RobotSource) -> LoadedRobot {
+    LoadedRobot::load(RobotFiles::shipped(source)).unwrap()
 }
 
 #[test]
-fn the_compiled_nao_is_fresh() {
-    let loaded = nao();
-    let file = format!("{}/{}", loaded.files().folder, compiled_robot::FILE_NAME);
-    let compiled = CompiledRobot::shipped().unwrap();
-    let fresh = compiled.check_fresh(&file, loaded.files());
-    assert!(fresh.is_ok(), "{fresh:?}: {}", renewal());
+fn compiled_robots_are_fresh() {
+    for (source, renewal) in robots() {
+        let (compiled, loaded) = (compiled(source, &renewal), loaded(source));
+        let file = format!("{}/{}", source.folder, compiled_robot::FILE_NAME);
+        let fresh = compiled.check_fresh(&file, loaded.files());
+        assert!(fresh.is_ok(), "{fresh:?}: {renewal}");
+        assert_eq!(compiled.engine(), prone_sim::engine_version(), "{renewal}");
+        assert_eq!(compiled.version().unwrap().version, source.version);
+    }
 }
 
 /// Every number of the compiled robot is the engine's, and everything else is the same.
 #[test]
-fn the_compiled_nao_is_the_engines() {
+fn compiled_robots_are_the_engines() {
     let value = |robot: &Robot| serde_json::to_value(RobotDocument::from_robot(robot)).unwrap();
-    let compiled = value(CompiledRobot::shipped().unwrap().robot());
-    let engine = value(nao().robot());
-    let mut numbers = 0;
-    compare("", &compiled, &engine, &mut numbers);
-    // Bodies, joints, shapes and postures of a humanoid: nothing was left out on the way.
-    assert!(numbers > 1000, "{numbers} numbers");
+    for (source, renewal) in robots() {
+        let file = value(compiled(source, &renewal).robot());
+        let engine = value(loaded(source).robot());
+        let mut numbers = 0;
+        let same = compare("robot", &file, &engine, &mut numbers);
+        assert!(same.is_ok(), "{same:?}: {renewal}");
+        // Bodies, joints, shapes and postures of a humanoid: nothing was left out on the way.
+        assert!(numbers > 1000, "{numbers} numbers");
+    }
 }
 
-fn compare(place: &str, compiled: &Value, engine: &Value, numbers: &mut usize) {
-    match (compiled, engine) {
+/// The first place in which two documents differ is the error.
+fn compare(place: &str, file: &Value, engine: &Value, numbers: &mut usize) -> Result<(), String> {
+    let differs = || format!("{place} is {file} in the file and {engine} by the engine");
+    match (file, engine) {
         (Value::Number(ours), Value::Number(theirs)) => {
             *numbers += 1;
             let off = (ours.as_f64().unwrap() - theirs.as_f64().unwrap()).abs();
-            assert!(
-                off <= TOLERANCE,
-                "{place}: {ours} and {theirs}: {}",
-                renewal()
-            );
-        }
-        (Value::Array(ours), Value::Array(theirs)) => {
-            assert_eq!(ours.len(), theirs.len(), "{place}: {}", renewal());
-            for (index, (ours, theirs)) in ours.iter().zip(theirs).enumerate() {
-                compare(&format!("{place}/{index}"), ours, theirs, numbers);
+            if off <= TOLERANCE {
+                Ok(())
+            } else {
+                Err(differs())
             }
         }
-        (Value::Object(ours), Value::Object(theirs)) => {
-            let keys = |object: &serde_json::Map<String, Value>| -> Vec<String> {
-                object.keys().cloned().collect()
-            };
-            assert_eq!(keys(ours), keys(theirs), "{place}: {}", renewal());
-            for (key, ours) in ours {
-                compare(&format!("{place}/{key}"), ours, &theirs[key], numbers);
-            }
+        (Value::Array(ours), Value::Array(theirs)) if ours.len() == theirs.len() => {
+            let mut pairs = ours.iter().zip(theirs).enumerate();
+            pairs.try_for_each(|(index, (ours, theirs))| {
+                compare(&format!("{place}[{index}]"), ours, theirs, numbers)
+            })
         }
-        (ours, theirs) => assert_eq!(ours, theirs, "{place}: {}", renewal()),
+        (Value::Object(ours), Value::Object(theirs)) if ours.len() == theirs.len() => {
+            let mut pairs = ours.iter();
+            pairs.try_for_each(|(key, ours)| {
+                let theirs = theirs.get(key).unwrap_or(&Value::Null);
+                compare(&format!("{place}.{key}"), ours, theirs, numbers)
+            })
+        }
+        (ours, theirs) if ours == theirs => Ok(()),
+        _ => Err(differs()),
     }
+}
+
+#[test]
+fn a_difference_is_found() {
+    let engine = serde_json::json!({ "a": [1.0, { "b": 2.0, "c": null }], "d": "e" });
+    let differs = |pointer: &str, value: Value| {
+        let mut file = engine.clone();
+        *file.pointer_mut(pointer).unwrap() = value;
+        compare("robot", &file, &engine, &mut 0).is_err()
+    };
+    assert!(!differs("/a/0", (1.0 + 1e-13).into()));
+    assert!(differs("/a/0", (1.0 + 1e-11).into()));
+    assert!(differs("/a/1/b", 2.1.into()));
+    assert!(differs("/a/1/c", 2.0.into()));
+    assert!(differs("/a", serde_json::json!([1.0])));
+    assert!(differs("/d", "f".into()));
 }
 
 /// Whoever plans without the engine plans the same.
 #[test]
 fn cycles_are_planned_alike_on_the_compiled_nao() {
-    let compiled = CompiledRobot::shipped().unwrap().into_robot();
-    let loaded = nao();
+    let compiled = CompiledRobot::shipped(&shipped::NAO).unwrap().into_robot();
+    let loaded = loaded(&shipped::NAO);
     for name in shipped::cycle_names() {
         let cycle = shipped::cycle(name).unwrap().unwrap();
         let plan = |robot: &Robot| {
             CheckedCycle::plan(robot, &robot.stops(), &cycle, 0.0, TimeScale::ONE).unwrap()
         };
         let (ours, theirs) = (plan(&compiled), plan(loaded.robot()));
+        // As on the kind of machine that has compiled the file: the same to the bit.
+        if compiled == **loaded.robot() {
+            assert_eq!(ours, theirs, "{name}");
+        }
         let (ours, theirs) = (ours.pull().samples(), theirs.pull().samples());
         assert_eq!(ours.len(), theirs.len(), "{name}");
         for (ours, theirs) in ours.iter().zip(theirs) {

@@ -4,9 +4,10 @@ use serde_json::{Value, json};
 use prone::robot::{ContactGroup, Motor, Range};
 
 use super::*;
+use crate::shipped;
 
 fn nao() -> CompiledRobot {
-    CompiledRobot::shipped().unwrap()
+    CompiledRobot::shipped(&shipped::NAO).unwrap()
 }
 
 fn sources() -> RobotFiles {
