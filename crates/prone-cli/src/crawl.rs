@@ -102,9 +102,10 @@ pub(crate) fn failure(error: CrawlError) -> Failure {
         CrawlError::Stopped => Failure::Stopped,
         CrawlError::Crawler(CrawlerError::Cycle { .. } | CrawlerError::Mapping { .. })
         | CrawlError::Imu(_) => Failure::input(error),
-        CrawlError::Crawler(_) | CrawlError::Timing(_) | CrawlError::Simulation { .. } => {
-            Failure::work(error)
-        }
+        CrawlError::Crawler(_)
+        | CrawlError::Timing(_)
+        | CrawlError::Simulation { .. }
+        | CrawlError::Port { .. } => Failure::work(error),
     }
 }
 

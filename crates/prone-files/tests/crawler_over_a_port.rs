@@ -166,7 +166,6 @@ impl Stop for FakeRobot {
     fn stop(&mut self) -> Result<(), PortError> {
         self.stopped += 1;
         self.on_the_way.clear();
-        self.held = self.angles.clone();
         Ok(())
     }
 }
@@ -337,7 +336,7 @@ fn a_failing_inertial_unit_stops_the_joints_and_says_so() {
     );
     assert_eq!((*cycle, gait.as_str()), (2, "low-165"), "{error}");
     assert_eq!(port.stopped, 1);
-    assert_eq!(port.held, port.angles);
+    assert!(port.on_the_way.is_empty());
     // Whoever does not go by it goes on.
     let (_, _, driven) = crawl(faults, &mut Log::default(), Straight::default());
     driven.unwrap();
@@ -356,6 +355,21 @@ fn a_lost_link_is_an_error_of_its_cycle_and_stop_is_tried() {
         "cycle 2 (low-165): the link is lost: nothing came for 0.01 s"
     );
     assert_eq!(port.stopped, 1);
+}
+
+/// Time is counted in ticks: a crawler of other ticks than the port's would crawl at another speed.
+#[test]
+fn a_port_of_other_ticks_is_refused_before_anything_moves() {
+    let robot = nao();
+    let mut program = program(1);
+    program.timing = Timing::new(2.0 * TICK, Delivery::SetPoints { every: 2.0 * TICK }).unwrap();
+    let stops = robot.stops();
+    let mut crawler =
+        Crawler::new(Arc::clone(&robot), stops, program, Straight::default()).unwrap();
+    let mut port = FakeRobot::new(&robot, JointAngles::zero(&robot), Faults::default());
+    let error = drive(&mut port, &mut crawler, &mut Log::default()).unwrap_err();
+    assert!(matches!(error, DriveError::Tick { .. }), "{error}");
+    assert_eq!((port.commands, port.waits), (0, 0));
 }
 
 /// Whatever comes next goes on from where the crawl has left the joints: here the same robot crawls

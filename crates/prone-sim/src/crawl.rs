@@ -128,6 +128,12 @@ pub enum CrawlError {
         /// What happened.
         source: SimulationError,
     },
+    /// The robot does not do what it is asked for, or is not what the crawler was made for.
+    #[error("{problem}")]
+    Port {
+        /// What the port or its driver said.
+        problem: String,
+    },
     /// The user stopped it.
     #[error("stopped")]
     Stopped,
@@ -175,13 +181,15 @@ pub fn crawler<P: Pilot>(
         at_most: most_cycles,
         ..
     }) = plan.end;
-    let every = world.robot().control.command_step;
+    let tick = world.regime().time_step;
+    // A coarser simulation than the robot's own clock commands at every step.
+    let every = world.robot().control.command_step.max(tick);
     let program = Program {
         cycles: plan.cycles.clone(),
         scale: plan.scale,
         most_cycles,
         begin,
-        timing: Timing::new(world.regime().time_step, Delivery::SetPoints { every })?,
+        timing: Timing::new(tick, Delivery::SetPoints { every })?,
     };
     let stops = world.stops().to_vec();
     Ok(Crawler::new(world.shared_robot(), stops, program, pilot)?)
@@ -245,6 +253,9 @@ pub fn proceed<P: Pilot>(
             gait,
             source,
         } => in_simulation((cycle, gait), source),
+        error @ DriveError::Tick { .. } => CrawlError::Port {
+            problem: error.to_string(),
+        },
     })?;
     if metered.was_stopped {
         return Err(CrawlError::Stopped);
@@ -269,21 +280,21 @@ pub fn proceed<P: Pilot>(
     Ok((crawl, robot))
 }
 
-/// What broke down is the simulation: it is the only thing in a simulated robot that can.
+/// A port's error as the simulation's, where it is one.
 fn in_simulation((cycle, gait): (usize, String), error: PortError) -> CrawlError {
-    let source = match error {
-        PortError::Backend(error) => match error.downcast::<SimulationError>() {
-            Ok(error) => *error,
-            Err(error) => unreachable!("a simulated robot fails as its simulation does: {error}"),
-        },
-        error @ (PortError::Lost { .. } | PortError::Refused { .. }) => {
-            unreachable!("a simulated robot has no link and no gate: {error}")
-        }
+    let other = |error: &dyn std::fmt::Display| CrawlError::Port {
+        problem: format!("cycle {cycle} ({gait}): {error}"),
     };
-    CrawlError::Simulation {
-        cycle,
-        gait,
-        source,
+    match error {
+        PortError::Backend(error) => match error.downcast::<SimulationError>() {
+            Ok(source) => CrawlError::Simulation {
+                cycle,
+                gait,
+                source: *source,
+            },
+            Err(error) => other(&error),
+        },
+        PortError::Lost { .. } | PortError::Refused { .. } => other(&error),
     }
 }
 

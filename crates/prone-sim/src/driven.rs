@@ -1,7 +1,8 @@
 //! A simulation as something that can be driven: the port of [`prone::port`].
 //!
 //! A tick is one engine step. Commands reach the servos as the motors of a robot take them: off by
-//! the calibration error of each joint, and no farther than its stop. The bearing that is felt is the
+//! the calibration error of each joint, and no farther than its stop; the measured angles are the true
+//! ones, without that error. The bearing that is felt is the
 //! simulation's own, without error; what the inertial unit says has noise and bias ([`crate::imu`]).
 
 use prone::port::{
@@ -73,11 +74,6 @@ impl SimulatedRobot {
     /// The simulation.
     pub const fn simulation(&self) -> &Simulation {
         &self.simulation
-    }
-
-    /// The simulation, to go on with something that is no port.
-    pub fn into_simulation(self) -> Simulation {
-        self.simulation
     }
 
     /// What was commanded last, rad, before any calibration error.
@@ -173,6 +169,10 @@ impl Pace for SimulatedRobot {
             // What is to be reached when the step is over.
             let time = self.simulation.time() + self.simulation.time_step() - path.began;
             let posture = path.segment.at(time, &path.from);
+            let last = path.segment.knots.last();
+            if last.is_none_or(|knot| knot.seconds <= time) {
+                self.path = None;
+            }
             self.hold(posture);
         }
         self.simulation.step();
@@ -184,9 +184,6 @@ impl Pace for SimulatedRobot {
 impl Stop for SimulatedRobot {
     fn stop(&mut self) -> Result<(), PortError> {
         self.path = None;
-        let here = self.simulation.joint_angles();
-        self.simulation.command(&here);
-        self.commanded = here;
         Ok(())
     }
 }

@@ -20,15 +20,17 @@ mod drive;
 mod error;
 mod pilot;
 mod planned;
+mod program;
 mod slope;
 mod timing;
 
 pub use course::PhaseKind;
-pub use crawler::{Begin, Crawler, Ended, Event, Halt, Program};
+pub use crawler::Crawler;
 pub use drive::{DriveError, Watch, drive};
 pub use error::CrawlerError;
 pub use pilot::{Decision, HoldHeading, HoldLine, Moment, Pilot, PilotError, Stage, Straight};
 pub use planned::FirstPose;
+pub use program::{Begin, Ended, Event, Halt, Program};
 pub use slope::SlopeAware;
 pub use timing::{Delivery, Timing, TimingError};
 

@@ -55,11 +55,12 @@ pub enum JointCommand {
     Segment(Segment),
 }
 
-/// A path in time. Between two knots every joint goes on a straight line; after the last one it
-/// stays there.
+/// A path in time. It begins when the command is taken, where the joints were last sent; from there
+/// to the first knot and from knot to knot every joint goes on a straight line; after the last one
+/// it stays there.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Segment {
-    /// In the order of time. The first one lies after the beginning, where the robot is.
+    /// In the order of time; the first one lies after the beginning.
     pub knots: Vec<Knot>,
 }
 
@@ -128,8 +129,9 @@ pub trait Pace {
 
 /// Something that can be brought to rest.
 pub trait Stop {
-    /// Lets every joint stay where it is, whatever was commanded before. It may be called at any
-    /// time, and more than once.
+    /// Ends whatever path is being followed: every joint holds the last angle that it was sent. A
+    /// posture under load sags below its set-point, so that commanding what is measured would lower
+    /// the robot with every call; this may be called at any time, and a second call changes nothing.
     ///
     /// # Errors
     /// [`PortError`].

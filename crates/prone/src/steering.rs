@@ -65,14 +65,15 @@ impl HeadingHold {
     }
 
     /// The turn command for the next cycle, rad, with the target heading subtracted from the
-    /// bearing by the caller.
+    /// bearing by the caller. A heading and the same heading a whole turn on are one.
     pub fn turn(&mut self, bearing: Bearing) -> f64 {
         let SteeringGains {
             yaw,
             lateral,
             lateral_sum,
         } = self.gains;
-        let error = |sum: f64| bearing.yaw + lateral * bearing.y + lateral_sum * sum;
+        let heading = shorter(bearing.yaw);
+        let error = |sum: f64| heading + lateral * bearing.y + lateral_sum * sum;
         let sum = self.sum + bearing.y;
         let wanted = -yaw * error(sum);
         if wanted.abs() < self.limit {
@@ -97,10 +98,13 @@ pub struct TurnTo {
 impl TurnTo {
     /// The turn command for the next cycle, rad: the shorter way round.
     pub fn turn(&self, bearing: Bearing) -> f64 {
-        let error = self.heading - bearing.yaw;
-        let shorter = error - (error / TAU).round() * TAU;
-        shorter.clamp(-self.limit, self.limit)
+        shorter(self.heading - bearing.yaw).clamp(-self.limit, self.limit)
     }
+}
+
+/// An angle the shorter way round, rad.
+fn shorter(angle: f64) -> f64 {
+    angle - (angle / TAU).round() * TAU
 }
 
 #[cfg(test)]
@@ -138,6 +142,9 @@ mod tests {
         assert!(left(0.0, 0.01, 0.0) < 0.0);
         assert!(left(0.0, -0.01, 0.0) > 0.0);
         assert!((left(0.0, 0.0, 3.0) + 0.2).abs() < f64::EPSILON, "clipped");
+        assert!(left(0.0, 0.0, 3.0 * std::f64::consts::PI) < 0.0);
+        let whole_turn = left(0.0, 0.0, 0.1 + TAU) - left(0.0, 0.0, 0.1);
+        assert!(whole_turn.abs() < 1e-12, "{whole_turn}");
     }
 
     #[test]

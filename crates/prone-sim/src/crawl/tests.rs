@@ -1,5 +1,6 @@
 use prone::crawl::{HoldHeading, HoldLine, SlopeAware, Straight};
 use prone::gait::cycle::CheckedCycle;
+use prone::port::{Knot, Segment, Stop as _};
 use prone::steering::HeadingHold;
 use prone_files::shipped;
 
@@ -400,6 +401,40 @@ fn segments_crawl_as_far_as_set_points() {
         (points - segments).abs() < 0.03 * points,
         "{points} and {segments} m"
     );
+}
+
+/// A path ends by itself at its last knot, and by a stop where it has come to: the joints keep the
+/// last set-point, and a second stop changes nothing.
+#[test]
+fn a_path_is_stopped_at_its_last_set_point() {
+    let robot = nao();
+    let world = World::new(&robot, Regime::LOCOMOTION).unwrap();
+    let plan = steady(1);
+    let begin = Begin::InExtension { rest: 0.0 };
+    let crawler = crawler(&world, &plan, begin, Straight::default()).unwrap();
+    let mut lying = lie_down(&world, &plan, &crawler).unwrap();
+    let from = lying.commanded().clone();
+    let to = from.map(|_, angle| angle + 0.1);
+    let knot = Knot {
+        seconds: 0.5,
+        angles: to.clone(),
+    };
+    let path = JointCommand::Segment(Segment { knots: vec![knot] });
+    lying.command(&path).unwrap();
+    let mut stopped = lying.clone();
+    for _ in 0..400 {
+        lying.wait().unwrap();
+    }
+    assert_eq!(lying.commanded(), &to, "at the last knot");
+    for _ in 0..100 {
+        stopped.wait().unwrap();
+    }
+    stopped.stop().unwrap();
+    let here = stopped.commanded().clone();
+    assert!(here != from && here != to);
+    stopped.wait().unwrap();
+    stopped.stop().unwrap();
+    assert_eq!(stopped.commanded(), &here);
 }
 
 /// A calibration error that leads past a stop is stopped there, counted and told.

@@ -94,24 +94,30 @@ impl Course {
         }
     }
 
-    /// All of it, with knots no farther apart than `every`, s.
+    /// All of it, with a knot at each waypoint and no two knots farther apart than `every`, s.
     pub(super) fn segment(&self, every: f64) -> Segment {
-        let seconds = self.seconds();
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "minutes over milliseconds"
-        )]
-        let count = (seconds / every).ceil().max(1.0) as usize;
-        let knots = (1..=count).map(|knot| {
-            let seconds = seconds * knot as f64 / count as f64;
-            Knot {
-                seconds,
-                angles: self.posture(seconds),
-            }
-        });
-        Segment {
-            knots: knots.collect(),
+        let ends = match self {
+            Self::Recovery { path, .. } => path.ends().collect(),
+            Self::Way { .. } | Self::Rest { .. } | Self::Pull(_) => vec![self.seconds()],
+        };
+        let mut knots = Vec::new();
+        let mut begin = 0.0;
+        for end in ends {
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "minutes over milliseconds"
+            )]
+            let count = ((end - begin) / every).ceil().max(1.0) as usize;
+            knots.extend((1..=count).map(|knot| {
+                let seconds = begin + (end - begin) * knot as f64 / count as f64;
+                Knot {
+                    seconds,
+                    angles: self.posture(seconds),
+                }
+            }));
+            begin = end;
         }
+        Segment { knots }
     }
 }

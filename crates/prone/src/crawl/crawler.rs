@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::gait::cycle::{CheckedCycle, Cycle, Easing, TimeScale};
+use crate::gait::cycle::{CheckedCycle, Easing};
 use crate::port::{JointCommand, Senses};
 use crate::robot::{JointAngles, Range, Robot};
 
@@ -10,76 +10,12 @@ use super::course::{Course, PhaseKind};
 use super::error::CrawlerError;
 use super::pilot::{Decision, Moment, Pilot, PilotError, Stage};
 use super::planned::{FirstPose, PlanError, Planned};
+use super::program::{Begin, Ended, Event, Halt, Program};
 use super::timing::{Delivery, Timing};
 
-/// What is crawled.
-#[derive(Debug, Clone)]
-pub struct Program {
-    /// The cycles between which the pilot chooses; the first one begins, without a turn.
-    pub cycles: Vec<Cycle>,
-    /// What all durations are multiplied by.
-    pub scale: TimeScale,
-    /// After how many cycles it ends.
-    pub most_cycles: usize,
-    /// How it begins.
-    pub begin: Begin,
-    /// When the crawler is asked, and in which form it answers.
-    pub timing: Timing,
-}
-
-/// How a crawl begins.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Begin {
-    /// In the first cycle's extension ([`Crawler::first_pose`]), where it rests first.
-    InExtension {
-        /// For how long, s.
-        rest: f64,
-    },
-    /// Wherever the joints are when it is first asked: they go to the extension on a straight line
-    /// from rest to rest, all at once, and rest there. A joint that is measured beyond its stop
-    /// begins at the stop: nothing is commanded beyond. Nothing looks at what is in their way: this is
-    /// for a robot that lies on its belly.
-    Lying {
-        /// Share of each joint's speed limit that is used, above 0, at most 1.
-        speed: f64,
-        /// For how long it rests, s.
-        rest: f64,
-    },
-}
-
-/// When a crawl that has been asked to stop does so.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Halt {
-    /// When the cycle is over: the robot is in an extension again.
-    AfterCycle,
-    /// At the next tick, wherever the joints are then.
-    AtOnce,
-}
-
-/// Why a crawl has ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ended {
-    /// All cycles are done.
-    Cycles,
-    /// It was asked to.
-    Halted(Halt),
-}
-
-/// What has come to pass in a tick.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Event {
-    /// A cycle has begun: [`Crawler::cycle`].
-    CycleBegan,
-    /// A phase of it has ended; another one of it, or the cycle's end, follows.
-    PhaseEnded(PhaseKind),
-    /// The cycle has ended.
-    CycleEnded,
-    /// The crawl has ended; whatever comes next goes on from [`Crawler::commanded`].
-    Ended(Ended),
-}
-
-/// Longest rest before the first cycle, s.
-const LONGEST_REST: f64 = 60.0;
+/// How many ticks in a row may come at one instant. A port that waits at least a tick between two
+/// looks has none.
+const MOST_FROZEN: usize = 100;
 
 /// Shortest way to the first posture, s: nothing begins with a jerk.
 const SHORTEST_WAY: f64 = 0.5;
@@ -90,8 +26,7 @@ pub struct Crawler<P> {
     robot: Arc<Robot>,
     stops: Vec<Range>,
     program: Program,
-    /// Who decides.
-    pub pilot: P,
+    pilot: P,
     /// The cycle that is crawled, or comes first.
     planned: Arc<Planned>,
     /// The cycle after it, once the pilot has decided.
@@ -99,6 +34,8 @@ pub struct Crawler<P> {
     done: usize,
     doing: Doing,
     last_tick: f64,
+    /// Ticks in a row that came at one instant.
+    frozen: usize,
     stage: Stage,
     commanded: Option<JointAngles>,
     halt: Option<Halt>,
@@ -116,6 +53,7 @@ enum Doing {
     /// A phase of the cycle, by its place.
     Phase(usize, Activity),
     Ended(Ended),
+    Failed(Box<CrawlerError>),
 }
 
 /// A course that is being followed.
@@ -139,15 +77,7 @@ impl<P: Pilot> Crawler<P> {
         program: Program,
         pilot: P,
     ) -> Result<Self, CrawlerError> {
-        let (Begin::InExtension { rest } | Begin::Lying { rest, .. }) = program.begin;
-        if !(0.0..=LONGEST_REST).contains(&rest) {
-            return Err(CrawlerError::Rest { seconds: rest });
-        }
-        if let Begin::Lying { speed, .. } = program.begin
-            && !(speed > 0.0 && speed <= 1.0)
-        {
-            return Err(CrawlerError::BeginSpeed { share: speed });
-        }
+        program.begin.check()?;
         let first = Decision {
             cycle: 0,
             turn: 0.0,
@@ -163,6 +93,7 @@ impl<P: Pilot> Crawler<P> {
             done: 0,
             doing: Doing::Nothing,
             last_tick: 0.0,
+            frozen: 0,
             stage: Stage::Recovery,
             commanded: None,
             halt: None,
@@ -172,21 +103,36 @@ impl<P: Pilot> Crawler<P> {
 
     /// What the joints are to do from now on, by what is felt now.
     ///
-    /// The first call begins the crawl. [`Crawler::events`] says what has come to pass.
+    /// The first call begins the crawl. [`Crawler::events`] says what has come to pass. After the end
+    /// nothing is felt or commanded any more.
     ///
     /// # Errors
-    /// [`CrawlerError`], naming the cycle and its gait; the crawl cannot go on then.
+    /// [`CrawlerError`], naming the cycle and its gait. The crawl is over then: every later call
+    /// returns the same error.
     pub fn tick(&mut self, senses: &Senses) -> Result<JointCommand, CrawlerError> {
         self.events.clear();
+        match &self.doing {
+            Doing::Ended(_) => return Ok(JointCommand::Continue),
+            Doing::Failed(error) => return Err((**error).clone()),
+            Doing::Nothing | Doing::Way(_) | Doing::Rest(_) | Doing::Phase(..) => {}
+        }
+        let ticked = self.go(senses);
+        if let Err(error) = &ticked {
+            self.doing = Doing::Failed(Box::new(error.clone()));
+        }
+        ticked
+    }
+
+    fn go(&mut self, senses: &Senses) -> Result<JointCommand, CrawlerError> {
         self.check(senses)?;
         self.feel(senses)?;
-        if matches!(self.doing, Doing::Ended(_)) {
-            return Ok(JointCommand::Continue);
+        let before = matches!(self.doing, Doing::Nothing);
+        if let Some(halt) = self.halt
+            && (before || halt == Halt::AtOnce)
+        {
+            return Ok(self.halt_here(halt, senses));
         }
-        if self.halt == Some(Halt::AtOnce) {
-            return Ok(self.halt_at_once(senses));
-        }
-        if matches!(self.doing, Doing::Nothing) {
+        if before {
             self.begin(senses)?;
         }
         while self
@@ -215,8 +161,22 @@ impl<P: Pilot> Crawler<P> {
                 let last = index + 1 == PhaseKind::of(&self.planned).len();
                 last && self.program.timing.ticks(time - it.began) >= it.ticks
             }
-            Doing::Nothing | Doing::Way(_) | Doing::Rest(_) | Doing::Ended(_) => false,
+            Doing::Nothing
+            | Doing::Way(_)
+            | Doing::Rest(_)
+            | Doing::Ended(_)
+            | Doing::Failed(_) => false,
         }
+    }
+
+    /// Who decides.
+    pub const fn pilot(&self) -> &P {
+        &self.pilot
+    }
+
+    /// When it is to be asked, and in which form it answers.
+    pub const fn timing(&self) -> Timing {
+        self.program.timing
     }
 
     /// The cycle that is crawled, or comes first.
@@ -243,7 +203,11 @@ impl<P: Pilot> Crawler<P> {
     pub const fn ended(&self) -> Option<Ended> {
         match self.doing {
             Doing::Ended(ended) => Some(ended),
-            Doing::Nothing | Doing::Way(_) | Doing::Rest(_) | Doing::Phase(..) => None,
+            Doing::Nothing
+            | Doing::Way(_)
+            | Doing::Rest(_)
+            | Doing::Phase(..)
+            | Doing::Failed(_) => None,
         }
     }
 
@@ -296,9 +260,19 @@ impl<P: Pilot> Crawler<P> {
         };
         let begun = !matches!(self.doing, Doing::Nothing);
         if begun && elapsed == 0.0 {
-            // The same instant again.
-            return Ok(());
+            return self.same_instant(senses.time);
         }
+        let longest_s = self.program.timing.longest_gap();
+        if elapsed > longest_s {
+            let (cycle, gait) = self.at();
+            return Err(CrawlerError::Gap {
+                cycle,
+                gait,
+                seconds: elapsed,
+                longest_s,
+            });
+        }
+        self.frozen = 0;
         self.last_tick = senses.time;
         let moment = Moment {
             robot: &self.robot,
@@ -310,21 +284,63 @@ impl<P: Pilot> Crawler<P> {
         felt.map_err(|source| self.pilot_error(source))
     }
 
+    /// A clock may stand still for a moment, as a pause does, but not for ever.
+    fn same_instant(&mut self, time_s: f64) -> Result<(), CrawlerError> {
+        self.frozen += 1;
+        if self.frozen <= MOST_FROZEN {
+            return Ok(());
+        }
+        let (cycle, gait) = self.at();
+        Err(CrawlerError::Frozen {
+            cycle,
+            gait,
+            time_s,
+            ticks: self.frozen,
+        })
+    }
+
     fn begin(&mut self, senses: &Senses) -> Result<(), CrawlerError> {
         match self.program.begin {
             Begin::Lying { speed, .. } => {
-                let from = senses.angles.map(|joint, angle| {
-                    let stop = self.stops[joint.0];
-                    angle.clamp(stop.lower, stop.upper)
-                });
+                self.check_stops(&senses.angles)?;
                 let to = self.planned.checked.extension().clone();
-                let seconds = way_seconds(&self.robot, &from, &to, speed);
+                let seconds = way_seconds(&self.robot, &senses.angles, &to, speed);
+                let from = self.within_stops(&senses.angles);
                 let course = Course::Way { from, to, seconds };
                 self.doing = Doing::Way(self.activity_of(course, senses.time));
                 Ok(())
             }
             Begin::InExtension { rest } => self.rest(rest, senses.time),
         }
+    }
+
+    /// No joint may be measured so far beyond its stop that it cannot be there.
+    fn check_stops(&self, measured: &JointAngles) -> Result<(), CrawlerError> {
+        let mut joints = self
+            .robot
+            .joints
+            .iter()
+            .zip(&self.stops)
+            .zip(measured.as_slice());
+        let beyond =
+            joints.find(|((_, stop), angle)| stop.excess(**angle).abs() > Begin::BEYOND_STOP);
+        match beyond {
+            None => Ok(()),
+            Some(((joint, stop), angle)) => Err(CrawlerError::BeyondStop {
+                joint: joint.name.clone(),
+                angle: *angle,
+                lower: stop.lower,
+                upper: stop.upper,
+                most: Begin::BEYOND_STOP,
+            }),
+        }
+    }
+
+    fn within_stops(&self, angles: &JointAngles) -> JointAngles {
+        angles.map(|joint, angle| {
+            let stop = self.stops[joint.0];
+            angle.clamp(stop.lower, stop.upper)
+        })
     }
 
     fn rest(&mut self, seconds: f64, now: f64) -> Result<(), CrawlerError> {
@@ -340,13 +356,10 @@ impl<P: Pilot> Crawler<P> {
     /// From an activity that is over to the next one.
     fn go_on(&mut self, senses: &Senses) -> Result<(), CrawlerError> {
         match self.doing {
-            Doing::Way(_) => {
-                let (Begin::InExtension { rest } | Begin::Lying { rest, .. }) = self.program.begin;
-                self.rest(rest, senses.time)
-            }
+            Doing::Way(_) => self.rest(self.program.begin.rest(), senses.time),
             Doing::Rest(_) => self.begin_cycle(senses.time),
             Doing::Phase(index, _) => self.end_phase(index, senses),
-            Doing::Nothing | Doing::Ended(_) => Ok(()),
+            Doing::Nothing | Doing::Ended(_) | Doing::Failed(_) => Ok(()),
         }
     }
 
@@ -447,17 +460,18 @@ impl<P: Pilot> Crawler<P> {
         command
     }
 
-    /// Holds what was commanded last; in the middle of a path in time, where that has come to.
-    fn halt_at_once(&mut self, senses: &Senses) -> JointCommand {
+    /// Holds what was commanded last; in the middle of a path in time, where that has come to; before
+    /// the first command, where the joints are measured, within their stops.
+    fn halt_here(&mut self, halt: Halt, senses: &Senses) -> JointCommand {
         let posture = match (self.program.timing.delivery(), self.activity()) {
             (Delivery::Segments { .. }, Some(it)) => it.course.posture(senses.time - it.began),
-            _ => self
-                .commanded
-                .clone()
-                .unwrap_or_else(|| senses.angles.clone()),
+            _ => match &self.commanded {
+                Some(commanded) => commanded.clone(),
+                None => self.within_stops(&senses.angles),
+            },
         };
         self.commanded = Some(posture.clone());
-        self.end(Ended::Halted(Halt::AtOnce));
+        self.end(Ended::Halted(halt));
         JointCommand::SetPoint(posture)
     }
 
@@ -479,14 +493,14 @@ impl<P: Pilot> Crawler<P> {
     const fn activity(&self) -> Option<&Activity> {
         match &self.doing {
             Doing::Way(it) | Doing::Rest(it) | Doing::Phase(_, it) => Some(it),
-            Doing::Nothing | Doing::Ended(_) => None,
+            Doing::Nothing | Doing::Ended(_) | Doing::Failed(_) => None,
         }
     }
 
     const fn activity_mut(&mut self) -> Option<&mut Activity> {
         match &mut self.doing {
             Doing::Way(it) | Doing::Rest(it) | Doing::Phase(_, it) => Some(it),
-            Doing::Nothing | Doing::Ended(_) => None,
+            Doing::Nothing | Doing::Ended(_) | Doing::Failed(_) => None,
         }
     }
 

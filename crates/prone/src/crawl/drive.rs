@@ -2,9 +2,10 @@
 
 use crate::port::{Command, JointCommand, Pace, PortError, Sense, Senses, Stop};
 
-use super::crawler::{Crawler, Halt};
+use super::crawler::Crawler;
 use super::error::CrawlerError;
 use super::pilot::Pilot;
+use super::program::Halt;
 
 /// Looks on while a crawler is driven.
 pub trait Watch<D: ?Sized, P> {
@@ -24,6 +25,14 @@ pub enum DriveError {
     /// The crawl itself cannot go on.
     #[error(transparent)]
     Crawler(#[from] CrawlerError),
+    /// The crawler counts in other ticks than the port waits for.
+    #[error("the crawler counts in ticks of {crawler_s} s, the port in ticks of {port_s} s")]
+    Tick {
+        /// Of [`Crawler::timing`], s.
+        crawler_s: f64,
+        /// Of [`Pace::tick`], s.
+        port_s: f64,
+    },
     /// The port failed.
     #[error("cycle {cycle} ({gait}): {source}")]
     Port {
@@ -36,10 +45,13 @@ pub enum DriveError {
     },
 }
 
+/// Share of a tick by which two are still the same.
+const SAME_TICK: f64 = 1e-9;
+
 /// Crawls to the end, one tick of the port after the other.
 ///
-/// On an error the joints are stopped where they are, as far as the port still can; the first error
-/// is returned.
+/// On an error the port is stopped, as far as it still can be; the first error is returned. A port of
+/// other ticks than the crawler's is an error before anything moves.
 ///
 /// # Errors
 /// [`DriveError`].
@@ -52,6 +64,10 @@ where
     D: Sense + Command + Pace + Stop + ?Sized,
     P: Pilot,
 {
+    let (port_s, crawler_s) = (port.tick(), crawler.timing().tick());
+    if (port_s - crawler_s).abs() > SAME_TICK * crawler_s {
+        return Err(DriveError::Tick { crawler_s, port_s });
+    }
     let driven = follow(port, crawler, watch);
     if driven.is_err() {
         // The error that is returned says more than one of stopping could.

@@ -59,6 +59,50 @@ pub enum CrawlerError {
         /// Time of this tick, s.
         time_s: f64,
     },
+    /// Nothing was felt for so long that the crawl is not what was planned any more.
+    #[error(
+        "in cycle {cycle} ({gait}): nothing was felt for {seconds} s; at most {longest_s} s may go by"
+    )]
+    Gap {
+        /// From 1.
+        cycle: usize,
+        /// The cycle's name.
+        gait: String,
+        /// Time between two ticks, s.
+        seconds: f64,
+        /// The bound, s.
+        longest_s: f64,
+    },
+    /// The senses' clock stands still.
+    #[error(
+        "in cycle {cycle} ({gait}): the senses' clock has stood at {time_s} s for {ticks} ticks"
+    )]
+    Frozen {
+        /// From 1.
+        cycle: usize,
+        /// The cycle's name.
+        gait: String,
+        /// Where it stands, s.
+        time_s: f64,
+        /// For how many ticks.
+        ticks: usize,
+    },
+    /// A joint is measured where it cannot be, before the crawl begins.
+    #[error(
+        "{joint} is measured at {angle} rad, more than {most} rad beyond its stops {lower}..{upper} rad"
+    )]
+    BeyondStop {
+        /// Name of the joint.
+        joint: String,
+        /// Where it is measured, rad.
+        angle: f64,
+        /// Its lower stop, rad.
+        lower: f64,
+        /// Its upper stop, rad.
+        upper: f64,
+        /// How far beyond it may be, rad.
+        most: f64,
+    },
     /// The measured joints are not the robot's, or one of them is not measured.
     #[error("in cycle {cycle} ({gait}): joint angles are not measured: {problem}")]
     Angles {

@@ -31,9 +31,10 @@ pub struct Moment<'a> {
     pub robot: &'a Robot,
     /// What it feels.
     pub senses: &'a Senses,
-    /// Time since the moment before, s.
+    /// Time since the moment before, s; 0 where the pilot decides.
     pub elapsed: f64,
-    /// What it has been doing in that time.
+    /// What it has been doing in that time; where the pilot decides, always [`Stage::Recovery`], as
+    /// the pull is over then.
     pub stage: Stage,
 }
 

@@ -113,7 +113,10 @@ impl<P: Pilot> Pilot for SlopeAware<P> {
             }
         };
         let Some(mut filter) = self.filter.take() else {
-            self.filter = begin(reading)?;
+            // A pull has no rest in it that an attitude could be taken from.
+            if !matches!(now.stage, Stage::Pull { .. }) {
+                self.filter = begin(reading)?;
+            }
             return Ok(());
         };
         filter.update(reading, now.elapsed)?;
@@ -127,8 +130,9 @@ impl<P: Pilot> Pilot for SlopeAware<P> {
     }
 }
 
-/// A filter that begins with a reading at rest, `None` while the robot is still being shaken. A
-/// crawl that begins without one ends at its first decision: [`PilotError::NotFelt`].
+/// A filter that begins with a reading at rest, `None` while the robot is still being shaken: the
+/// next reading is tried. A pull that is over before there is a filter ends the crawl with
+/// [`PilotError::NotFelt`].
 fn begin(reading: &ImuReading) -> Result<Option<AttitudeFilter>, AttitudeError> {
     match AttitudeFilter::aligned(Gains::PUBLISHED, reading) {
         Ok(filter) => Ok(Some(filter)),

@@ -318,6 +318,47 @@ fn a_crawl_stops_after_the_cycle_or_at_once() {
     }
 }
 
+/// Nothing has been commanded yet: the joints hold where they are, within their stops.
+#[test]
+fn a_crawl_that_is_stopped_before_it_begins_ends_at_its_first_tick() {
+    let robot = robot();
+    let knee = robot.chain.left.knee;
+    let stop = robot.stops()[knee.0];
+    for halt in [Halt::AfterCycle, Halt::AtOnce] {
+        let mut crawler = straight(2, AT_ONCE, set_points());
+        let mut measured = crawler.first_pose().posture;
+        measured[knee] = stop.upper + 0.02;
+        crawler.stop(halt);
+        let command = crawler.tick(&senses(3.0, &measured)).unwrap();
+        assert_eq!(crawler.ended(), Some(Ended::Halted(halt)));
+        assert_eq!(crawler.events(), [Event::Ended(Ended::Halted(halt))]);
+        measured[knee] = stop.upper;
+        assert_eq!(command, JointCommand::SetPoint(measured));
+    }
+}
+
+/// A robot that goes from knot to knot by itself misses no waypoint, however coarse the knots are.
+#[test]
+fn every_waypoint_is_a_knot() {
+    let mut crawler = straight(1, AT_ONCE, Delivery::Segments { every: 0.1 });
+    let log = crawl(&mut crawler, whole).unwrap();
+    let (_, JointCommand::Segment(recovery)) = &log.commands[1] else {
+        panic!("{:?}", log.commands);
+    };
+    let knots: Vec<f64> = recovery.knots.iter().map(|knot| knot.seconds).collect();
+    for (_, end) in crawler.cycle().recovery_ends() {
+        assert!(
+            knots.iter().any(|at| (at - end).abs() < 1e-12),
+            "{end} s in {knots:?}"
+        );
+    }
+    let mut before = 0.0;
+    for knot in knots {
+        assert!(before < knot && knot <= before + 0.1 + 1e-12);
+        before = knot;
+    }
+}
+
 #[test]
 fn a_lying_robot_goes_to_the_extension_within_its_speeds() {
     let speed = 0.5;
@@ -395,8 +436,8 @@ fn the_pilot_decides_once_a_cycle_and_feels_every_tick() {
         ticks += 1;
     }
     assert_eq!(names, ["one", "two", "one"]);
-    assert_eq!(crawler.pilot.decided, 3);
-    assert_eq!(crawler.pilot.felt, ticks);
+    assert_eq!(crawler.pilot().decided, 3);
+    assert_eq!(crawler.pilot().felt, ticks);
 }
 
 #[test]
@@ -435,7 +476,59 @@ fn limit_senses_that_are_none() {
         let error = crawler.tick(&senses(time, angles)).unwrap_err().to_string();
         assert!(error.contains(said), "{error}");
         assert!(error.contains("cycle 1 (only)"), "{error}");
+        // What could not go on does not go on, whatever is felt later.
+        let later = crawler.tick(&senses(0.6, &good)).unwrap_err().to_string();
+        assert_eq!(later, error);
+        assert_eq!(crawler.ended(), None);
     }
+}
+
+#[test]
+fn limit_a_clock_that_leaps_or_stands_still() {
+    let good = straight(1, AT_ONCE, set_points()).first_pose().posture;
+    let mut crawler = straight(1, AT_ONCE, set_points());
+    crawler.tick(&senses(0.5, &good)).unwrap();
+    crawler.tick(&senses(0.69, &good)).unwrap();
+    let error = crawler.tick(&senses(0.9, &good)).unwrap_err();
+    assert!(
+        matches!(error, CrawlerError::Gap { cycle: 1, .. }),
+        "{error}"
+    );
+
+    let mut crawler = straight(1, AT_ONCE, set_points());
+    let error = (0..1000).find_map(|_| crawler.tick(&senses(0.5, &good)).err());
+    assert!(
+        matches!(error, Some(CrawlerError::Frozen { ticks: 101, .. })),
+        "{error:?}"
+    );
+}
+
+/// A small calibration error is cut at the stop; a joint that cannot be where it is measured is an
+/// error before anything moves.
+#[test]
+fn limit_a_beginning_beyond_a_stop() {
+    let robot = robot();
+    let knee = robot.chain.left.knee;
+    let stop = robot.stops()[knee.0];
+    let begin = |beyond: f64| {
+        let lying = Begin::Lying {
+            speed: 0.5,
+            rest: 0.0,
+        };
+        let mut crawler = straight(1, lying, set_points());
+        let mut angles = JointAngles::zero(&robot);
+        angles[knee] = stop.lower - beyond;
+        crawler.tick(&senses(0.0, &angles))
+    };
+    let JointCommand::SetPoint(first) = begin(0.09).unwrap() else {
+        panic!("no set-point");
+    };
+    assert!(stop.contains(first[knee]), "{} rad", first[knee]);
+    let error = begin(0.11).unwrap_err();
+    assert!(
+        matches!(&error, CrawlerError::BeyondStop { joint, .. } if joint == "Lknee"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -501,12 +594,12 @@ fn the_slope_that_is_felt_has_the_sign_of_the_slope() {
             Sensed::Whole
         })
         .unwrap();
-        for felt in crawler.pilot.felt() {
+        for felt in crawler.pilot().felt() {
             // The filter follows the pull's own pitching with its time constant of a second.
             let off = felt.to_degrees() - slope;
             assert!(off.abs() < 3.0, "{off}° on {slope}°");
         }
-        assert_eq!(crawler.pilot.felt().len(), 3);
+        assert_eq!(crawler.pilot().felt().len(), 3);
     }
 }
 

@@ -17,7 +17,7 @@ pub enum Delivery {
     },
     /// The whole phase at once as a path in time, for a robot that follows it by itself.
     Segments {
-        /// Time between two knots, s, at the most.
+        /// Time between two knots, s, at the most; every waypoint is a knot besides.
         every: f64,
     },
 }
@@ -42,6 +42,16 @@ pub enum TimingError {
         /// The tick, s.
         tick_s: f64,
     },
+    /// Knots lie closer than any robot follows, or so far apart that a pull is no pull any more.
+    #[error(
+        "knots every {every_s} s are outside {}..{} s",
+        Timing::KNOTS.0,
+        Timing::KNOTS.1
+    )]
+    Knots {
+        /// What was asked for, s.
+        every_s: f64,
+    },
 }
 
 /// Tolerance of times that are meant to be a whole number of ticks, in ticks: sums of rounded
@@ -53,6 +63,12 @@ impl Timing {
     pub const TICK: (f64, f64) = (1e-5, 1.0);
     /// Longest time between two commands, s.
     pub const SLOWEST: f64 = 1.0;
+    /// Shortest and longest time between two knots of a segment, s. It does not depend on the tick:
+    /// the robot goes from knot to knot by itself.
+    pub const KNOTS: (f64, f64) = (1e-3, 0.1);
+    /// For how long nothing may be felt, s, where ticks are short: longer than a busy controller is
+    /// away, short against a pull of seconds.
+    const LONGEST_GAP: f64 = 0.2;
 
     /// A crawler that is asked about every `tick`, s.
     ///
@@ -62,14 +78,28 @@ impl Timing {
         if !(Self::TICK.0..=Self::TICK.1).contains(&tick) {
             return Err(TimingError::Tick { tick_s: tick });
         }
-        let (Delivery::SetPoints { every } | Delivery::Segments { every }) = delivery;
-        if !(tick..=Self::SLOWEST).contains(&every) {
-            return Err(TimingError::Every {
-                every_s: every,
-                tick_s: tick,
-            });
+        match delivery {
+            Delivery::SetPoints { every } if !(tick..=Self::SLOWEST).contains(&every) => {
+                Err(TimingError::Every {
+                    every_s: every,
+                    tick_s: tick,
+                })
+            }
+            Delivery::Segments { every } if !(Self::KNOTS.0..=Self::KNOTS.1).contains(&every) => {
+                Err(TimingError::Knots { every_s: every })
+            }
+            Delivery::SetPoints { .. } | Delivery::Segments { .. } => Ok(Self { tick, delivery }),
         }
-        Ok(Self { tick, delivery })
+    }
+
+    /// About how often the crawler is asked, s.
+    pub const fn tick(&self) -> f64 {
+        self.tick
+    }
+
+    /// For how long nothing may be felt in a crawl, s: two ticks may always be lost.
+    pub(super) fn longest_gap(&self) -> f64 {
+        Self::LONGEST_GAP.max(3.5 * self.tick)
     }
 
     /// Form of the commands.
@@ -132,7 +162,13 @@ mod tests {
         ] {
             assert!(set_points(tick, every).is_err(), "{tick} {every}");
         }
-        assert!(Timing::new(0.01, Delivery::Segments { every: 0.001 }).is_err());
+        let segments = |every| Timing::new(0.02, Delivery::Segments { every });
+        assert!(segments(0.001).is_ok());
+        assert!(segments(0.1).is_ok());
+        for every in [0.0, 0.0009, 0.11, f64::NAN] {
+            let error = segments(every).err();
+            assert!(matches!(error, Some(TimingError::Knots { .. })), "{every}");
+        }
     }
 
     /// The set-point is the one that is to be reached when the next one comes.

@@ -211,6 +211,14 @@ impl FastestJoint {
 }
 
 impl RecoveryPath {
+    /// When each waypoint is reached, and at last the next extension, s since the recovery began.
+    pub fn ends(&self) -> impl Iterator<Item = f64> {
+        self.legs.iter().scan(0.0, |end, (approach, _)| {
+            *end += approach.seconds;
+            Some(*end)
+        })
+    }
+
     /// Joint angles at a time since the recovery began, s.
     pub fn at(&self, seconds: f64) -> JointAngles {
         let mut begin = 0.0;
