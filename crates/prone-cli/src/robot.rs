@@ -5,6 +5,7 @@ pub(crate) mod compile;
 use std::io::Write as _;
 use std::path::Path;
 
+use anyhow::anyhow;
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -27,11 +28,11 @@ pub(crate) fn load(name: Option<&Path>) -> Result<LoadedRobot, Failure> {
 /// What a search says of its robot.
 pub(crate) fn said(robot: &LoadedRobot) -> Value {
     let files = robot.files();
-    let member = files.member.as_ref();
+    let version = files.version.as_ref();
     json!({
         "name": robot.robot().name,
-        "family": member.map(|member| &member.family),
-        "version": member.map(|member| &member.version),
+        "family": version.map(|version| &version.family),
+        "version": version.map(|version| &version.version),
         "folder": files.folder,
         "sha256": files.hash(),
     })
@@ -49,19 +50,21 @@ pub(crate) fn check(args: &RobotCheckArgs) -> Result<(), Failure> {
             refused: compiled.err().map(|error| error.to_string()),
         }),
     };
+    let folder = &loaded.files().folder;
     let mut out = std::io::stdout().lock();
     if args.json {
         let text = serde_json::to_string_pretty(&checked).map_err(Failure::work)?;
         writeln!(out, "{text}")?;
-        return Ok(());
+    } else {
+        print(&checked.sheet, folder, &mut out)?;
     }
-    print(&checked.sheet, &loaded.files().folder, &mut out)?;
-    let refused = checked.compiled.and_then(|compiled| compiled.refused);
-    if let Some(refused) = refused {
-        writeln!(out, "\n{refused}")?;
+    match checked.compiled.and_then(|compiled| compiled.refused) {
+        Some(refused) => Err(Failure::Work(anyhow!(
+            "the robot in {folder} is valid, but not the compiled one beside it: {refused}"
+        ))),
+        None if args.json => Ok(()),
+        None => Ok(writeln!(out, "\nvalid")?),
     }
-    writeln!(out, "\nvalid")?;
-    Ok(())
 }
 
 /// What is said of a robot.

@@ -20,7 +20,7 @@ fn plan(robot: &Robot, stops: &[Range], turn: f64) -> CheckedCycle {
     CheckedCycle::plan(robot, stops, &cycle, turn, TimeScale::ONE).unwrap()
 }
 
-/// Mass and links of the maker, within the digits that are printed.
+/// Mass and links of the manufacturer, within the digits that are printed.
 #[test]
 fn reference_mass_and_chain_are_the_makers() {
     let robot = nao();
