@@ -182,7 +182,7 @@ fn what_a_card_says_is_in_the_record() {
             "{recorded} is not {ours}"
         );
     }
-    // The maker says that the NAO is 574 mm high.
+    // The manufacturer says that the NAO is 574 mm high.
     let heights = number(&card["standing_heights_per_s"]);
     assert!((heights * 574.0 - number(&summary["mm_per_s"])).abs() < 1e-9);
     let tops = summary["top_mm"].as_object().unwrap().values();

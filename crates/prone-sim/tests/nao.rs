@@ -49,7 +49,7 @@ fn reference_mass_is_the_sum_of_the_makers_links() {
     assert_near(nao().robot().mass(), 5.305, 5e-4, "mass, kg");
 }
 
-/// The figures that follow from the maker's joint positions (tolerances: the digits printed).
+/// The figures that follow from the manufacturer's joint positions (tolerances: the digits printed).
 #[test]
 fn reference_derived_chain() {
     let loaded = nao();
