@@ -178,4 +178,6 @@ fn checking_a_robot_fails_when_its_compiled_file_is_stale() {
         message.contains("robot/robot.compiled.json:1:"),
         "{message}"
     );
+    let renewal = "; `prone robot compile robot` writes it anew\n";
+    assert!(message.ends_with(renewal), "{message}");
 }
