@@ -81,7 +81,7 @@ AGREEMENT = {
     ("optimal", "shoulder"): (0.20, 0.80),
 }
 
-# The maker's link masses sum to 5.305 kg. Over a slow phase the floor carries the weight; the
+# The manufacturer's link masses sum to 5.305 kg. Over a slow phase the floor carries the weight; the
 # mean is within 0.1 % of it, single steps within a few per cent.
 WEIGHT_N = 5.305 * 9.81
 WEIGHT_TOLERANCE = 0.01

@@ -41,9 +41,11 @@ Examples:
   prone crawl run low-175 --ceiling-mm 178 --length-m 1.5 --until-past
                                           crawl under a plate
   prone crawl under --ceiling-mm 180      whether the robot gets under it, how, and how fast
-  prone view out/run                      replay a recorded run in the browser
-  prone report out/reproduce out/run      figures, report card and replay on one page
-  prone export out/low --format mcap      a recorded crawl for other tools
+  prone crawl run low-175 --record out/low
+                                          record a crawl
+  prone view out/low --open               replay it in the browser
+  prone report out/reproduce out/low      figures, report card and replay on one page
+  prone export out/low --format mcap      the recorded crawl for other tools
   prone gait show nominal                 a gait's joints, limits and heights
   prone robot check robots/nao            validate a robot and print its chain")]
 pub(crate) struct Args {

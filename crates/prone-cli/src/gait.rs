@@ -31,8 +31,8 @@ pub(crate) fn find(gaits: &Gaits, name: &str) -> Result<Gait, Failure> {
     let gait = match named.filter(|gait| !gait.is_cycle()) {
         Some(gait) => gait,
         None => in_file(name)?.ok_or_else(|| {
-            let own = gaits.own_pulls();
-            unknown("gait", name, gaits, own, &mut shipped::gait_names())
+            let shipped = listed(shipped::gait_names());
+            unknown("gait", name, gaits, gaits.own_pulls(), &shipped)
         })?,
     };
     gait_file::parse(&gait.file, &gait.text).map_err(Failure::input)
@@ -44,16 +44,15 @@ pub(crate) fn find_cycle(gaits: &Gaits, name: &str) -> Result<GaitSource, Failur
     let gait = match gaits.find(name).map_err(Failure::input)? {
         Some(gait) if gait.is_cycle() => gait,
         Some(_) => {
-            let known: Vec<_> = shipped::cycle_names().collect();
             return Err(Failure::Input(anyhow!(
                 "{name} is a pull alone: a crawl needs a cycle with its way back, one that ships with \
                  prone ({}) or a file",
-                known.join(", ")
+                listed(shipped::cycle_names())
             )));
         }
         None => in_file(name)?.ok_or_else(|| {
-            let own = gaits.own_cycles();
-            unknown("cycle", name, gaits, own, &mut shipped::cycle_names())
+            let shipped = listed(shipped::cycle_names());
+            unknown("cycle", name, gaits, gaits.own_cycles(), &shipped)
         })?,
     };
     Ok(GaitSource {
@@ -78,7 +77,7 @@ fn unknown(
     name: &str,
     gaits: &Gaits,
     own: Result<Vec<String>, ReadError>,
-    shipped: &mut dyn Iterator<Item = &'static str>,
+    shipped: &str,
 ) -> Failure {
     let own = match (gaits, own) {
         (_, Err(error)) => return Failure::input(error),
@@ -87,11 +86,27 @@ fn unknown(
         }
         (_, Ok(_)) => String::new(),
     };
-    let shipped: Vec<&str> = shipped.collect();
     Failure::Input(anyhow!(
-        "there is no {noun} {name:?}: it is neither {own}one that ships with prone ({}) nor a file",
-        shipped.join(", ")
+        "there is no {noun} {name:?}: it is neither {own}one that ships with prone ({shipped}) nor a file"
     ))
+}
+
+fn listed(names: impl Iterator<Item = &'static str>) -> String {
+    names.collect::<Vec<_>>().join(", ")
+}
+
+/// A name that is neither a pull nor a cycle.
+fn unknown_to_all(name: &str, gaits: &Gaits) -> Failure {
+    let own = gaits.own_pulls().and_then(|pulls| {
+        let cycles = gaits.own_cycles()?;
+        Ok([pulls, cycles].concat())
+    });
+    let (pulls, cycles) = (
+        listed(shipped::gait_names()),
+        listed(shipped::cycle_names()),
+    );
+    let shipped = format!("pulls: {pulls}; cycles: {cycles}");
+    unknown("gait", name, gaits, own, &shipped)
 }
 
 /// Whether a cycle is one that ships with prone, and not a user's.
@@ -133,6 +148,9 @@ pub(crate) fn show(args: &GaitShowArgs) -> Result<(), Failure> {
     let gaits = &loaded.files().gaits;
     let name = args.gait.name();
     let named = gaits.find(name).map_err(Failure::input)?;
+    if named.is_none() && !Path::new(name).exists() {
+        return Err(unknown_to_all(name, gaits));
+    }
     if named.map_or_else(|| is_cycle_file(name), |gait| gait.is_cycle()) {
         return cycle::show(args, &loaded);
     }

@@ -166,7 +166,7 @@ fn print(
             )?;
             writeln!(
                 out,
-                "  largest torque {:.2} of the maker's limit ({})",
+                "  largest torque {:.2} of the manufacturer's limit ({})",
                 best.peak_torque_over_rated, best.peak_joint
             )?;
         }

@@ -5,9 +5,11 @@ pub(crate) mod compile;
 use std::io::Write as _;
 use std::path::Path;
 
+use anyhow::anyhow;
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use prone_files::compiled_robot::CompiledRobotError;
 use prone_files::shipped;
 use prone_sim::{LoadedRobot, Regime, RobotFiles, World};
 use prone_study::robot_sheet::{self, ChainSheet, RobotSheet};
@@ -27,11 +29,11 @@ pub(crate) fn load(name: Option<&Path>) -> Result<LoadedRobot, Failure> {
 /// What a search says of its robot.
 pub(crate) fn said(robot: &LoadedRobot) -> Value {
     let files = robot.files();
-    let member = files.member.as_ref();
+    let version = files.version.as_ref();
     json!({
         "name": robot.robot().name,
-        "family": member.map(|member| &member.family),
-        "version": member.map(|member| &member.version),
+        "family": version.map(|version| &version.family),
+        "version": version.map(|version| &version.version),
         "folder": files.folder,
         "sha256": files.hash(),
     })
@@ -42,26 +44,48 @@ pub(crate) fn check(args: &RobotCheckArgs) -> Result<(), Failure> {
     for regime in [Regime::TORQUE_STUDY, Regime::LOCOMOTION] {
         World::new(&loaded, regime).map_err(Failure::input)?;
     }
+    let folder = &loaded.files().folder;
+    let compiled = compile::beside(&loaded);
     let checked = Checked {
         sheet: robot_sheet::of(loaded.robot()).map_err(Failure::input)?,
-        compiled: compile::beside(&loaded).map(|compiled| Compiled {
+        compiled: compiled.as_ref().map(|compiled| Compiled {
             fresh: compiled.is_ok(),
-            refused: compiled.err().map(|error| error.to_string()),
+            refused: compiled.as_ref().err().map(ToString::to_string),
         }),
     };
     let mut out = std::io::stdout().lock();
     if args.json {
         let text = serde_json::to_string_pretty(&checked).map_err(Failure::work)?;
         writeln!(out, "{text}")?;
-        return Ok(());
+    } else {
+        print(&checked.sheet, folder, &mut out)?;
     }
-    print(&checked.sheet, &loaded.files().folder, &mut out)?;
-    let refused = checked.compiled.and_then(|compiled| compiled.refused);
-    if let Some(refused) = refused {
-        writeln!(out, "\n{refused}")?;
+    if let Some(Err(error)) = compiled {
+        return Err(refused(folder, &error));
     }
-    writeln!(out, "\nvalid")?;
+    if !args.json {
+        writeln!(out, "\nvalid")?;
+    }
     Ok(())
+}
+
+/// A compiled robot that cannot be used, with the command that writes it anew.
+fn refused(folder: &str, error: &CompiledRobotError) -> Failure {
+    let renewal = match error {
+        CompiledRobotError::Stale { .. } | CompiledRobotError::FormatVersion { .. } => {
+            // They name it themselves.
+            String::new()
+        }
+        CompiledRobotError::Read { .. }
+        | CompiledRobotError::Json(_)
+        | CompiledRobotError::Format { .. }
+        | CompiledRobotError::Violation { .. } => {
+            format!("; `prone robot compile {folder}` writes it anew")
+        }
+    };
+    Failure::Work(anyhow!(
+        "the robot in {folder} is valid, but not the compiled one beside it: {error}{renewal}"
+    ))
 }
 
 /// What is said of a robot.

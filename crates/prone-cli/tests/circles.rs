@@ -2,8 +2,10 @@
 //!
 //! An arrow runs from the module that names another one to the module that it names: in a `use`, in
 //! a path such as `crate::robot::load`, or by declaring it (`mod`). A path leads to the deepest
-//! module on it. A module that uses what its parent or another ancestor defines draws no arrow, so
-//! that a folder may share types in the file above it. Tests draw none either.
+//! module on it, and on to where the name behind that module comes from, if the module has it by a
+//! `use` of its own: `pub use` hides no arrow. A module that uses what its parent or another ancestor
+//! defines draws no arrow, so that a folder may share types in the file above it. Tests draw none
+//! either. A `use` of everything (`*`) leads no further than its module.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -13,6 +15,8 @@ use std::path::{Path, PathBuf};
 type Module = Vec<String>;
 /// The source text of the modules of one crate.
 type Sources = BTreeMap<Module, String>;
+/// The names that a module has by its `use`, with the paths that they stand for.
+type Imports = BTreeMap<String, Module>;
 /// Where the arrows of each module lead.
 type Arrows = BTreeMap<Module, BTreeSet<Module>>;
 
@@ -51,6 +55,45 @@ fn a_planted_circle_is_found() {
     assert_eq!(
         circles(&arrows(&written(&planted))),
         ["camera::glass -> camera::light, camera::light -> robot, robot -> camera::glass"]
+    );
+}
+
+#[test]
+fn a_circle_through_a_re_export_is_found() {
+    // As the figures had it: the check names a record by their parent, which has it from a child.
+    let planted = [
+        ("", "mod camera;"),
+        (
+            "camera",
+            "mod check;\nmod glass;\nmod light;\npub use glass::{Lens as Eye, draw};\nstruct Failure;",
+        ),
+        ("camera::check", "use super::{Eye, Failure};"),
+        (
+            "camera::glass",
+            "use super::{Failure, check};\nstruct Lens;",
+        ),
+        ("camera::light", "fn f() { super::draw() }"),
+    ];
+    assert_eq!(
+        circles(&arrows(&written(&planted))),
+        ["camera::check -> camera::glass, camera::glass -> camera::check"]
+    );
+}
+
+#[test]
+fn a_re_export_is_followed_through_others_and_through_a_module_of_another_name() {
+    let planted = [
+        ("", "mod camera;\nmod robot;\nuse robot as body;"),
+        ("camera", "mod glass;\npub(crate) use glass::Lens;"),
+        ("camera::glass", "use crate::{\n    body::arm::lift,\n};"),
+        ("robot", "mod arm;\npub use crate::camera::Lens;"),
+        ("robot::arm", "use super::Lens;"),
+    ];
+    assert_eq!(
+        circles(&arrows(&written(&planted))),
+        [
+            "camera -> camera::glass, camera::glass -> robot::arm, robot::arm -> camera, robot::arm -> camera::glass"
+        ]
     );
 }
 
@@ -110,24 +153,36 @@ fn sources(folder: &Path) -> Sources {
 const ROOTS: [&str; 3] = ["lib", "main", "mod"];
 
 fn arrows(sources: &Sources) -> Arrows {
-    let arrows = sources.iter().map(|(module, text)| {
-        let code = text
-            .split("#[cfg(test)]\nmod tests {")
-            .next()
-            .unwrap_or_default();
-        let lines = code
-            .lines()
-            .map(|line| line.split("//").next().unwrap_or_default());
-        let code = lines.collect::<Vec<_>>().join("\n");
-        let named = paths(&code)
+    let codes: Sources = sources
+        .iter()
+        .map(|(module, text)| (module.clone(), code(text)))
+        .collect();
+    let modules: BTreeMap<Module, Imports> = codes
+        .iter()
+        .map(|(module, code)| (module.clone(), imports(code)))
+        .collect();
+    let arrows = codes.iter().map(|(module, code)| {
+        let named = paths(code)
             .into_iter()
-            .filter_map(|path| resolve(module, &path, sources));
+            .flat_map(|path| resolve(module, &path, &modules));
         (
             module.clone(),
             named.filter(|other| !module.starts_with(other)).collect(),
         )
     });
     arrows.collect()
+}
+
+/// A text without its tests and comments.
+fn code(text: &str) -> String {
+    let code = text
+        .split("#[cfg(test)]\nmod tests {")
+        .next()
+        .unwrap_or_default();
+    let lines = code
+        .lines()
+        .map(|line| line.split("//").next().unwrap_or_default());
+    lines.collect::<Vec<_>>().join("\n")
 }
 
 /// Every path with two names or more, trees of `use` taken apart, and `self::x` for a `mod x`.
@@ -138,7 +193,9 @@ fn paths(code: &str) -> Vec<Module> {
         let name = leading_name(&rest[start..]);
         let after = &rest[start + name.len()..];
         if after.starts_with("::") {
-            rest = unfold(&[], &rest[start..], &mut paths);
+            let mut found = Vec::new();
+            rest = unfold(&[], &rest[start..], &mut found);
+            paths.extend(found.into_iter().map(|(path, _)| path));
         } else {
             if name == "mod" {
                 let child = leading_name(after.trim_start());
@@ -150,8 +207,33 @@ fn paths(code: &str) -> Vec<Module> {
     paths
 }
 
-/// Adds the paths that a tree stands for, and returns the text behind it.
-fn unfold<'t>(before: &[String], tree: &'t str, paths: &mut Vec<Module>) -> &'t str {
+/// The names that every `use` of a module brings.
+fn imports(code: &str) -> Imports {
+    let mut found = Vec::new();
+    let mut rest = code;
+    while let Some(start) = rest.find(is_name) {
+        let name = leading_name(&rest[start..]);
+        rest = &rest[start + name.len()..];
+        if name == "use" {
+            rest = unfold(&[], rest.trim_start(), &mut found);
+        }
+    }
+    let named = found.into_iter().map(|(mut path, called)| {
+        // `use light::{self}` brings `light`.
+        path.pop_if(|last| last == "self");
+        let called = called.or_else(|| path.last().cloned());
+        (called.unwrap_or_default(), path)
+    });
+    named.collect()
+}
+
+/// Adds the paths that a tree stands for, each with the name that `as` gives it, and returns the text
+/// behind it.
+fn unfold<'t>(
+    before: &[String],
+    tree: &'t str,
+    paths: &mut Vec<(Module, Option<String>)>,
+) -> &'t str {
     let mut path = before.to_vec();
     let mut rest = tree;
     loop {
@@ -173,7 +255,9 @@ fn unfold<'t>(before: &[String], tree: &'t str, paths: &mut Vec<Module>) -> &'t 
             _ => break,
         }
     }
-    paths.push(path);
+    let called = rest.trim_start().strip_prefix("as ");
+    let called = called.map(|name| leading_name(name.trim_start()).to_owned());
+    paths.push((path, called));
     rest
 }
 
@@ -185,33 +269,55 @@ fn leading_name(text: &str) -> &str {
     &text[..text.find(|letter| !is_name(letter)).unwrap_or(text.len())]
 }
 
-/// The deepest module on a path, if it begins with one of this crate.
-fn resolve(module: &Module, path: &[String], sources: &Sources) -> Option<Module> {
+/// Most re-exports that one name is followed through: more is a name that stands for itself.
+const LONGEST_WAY: usize = 10;
+
+/// The deepest module on a path, if it begins with one of this crate, and the modules that a name
+/// behind it comes from.
+fn resolve(module: &Module, path: &[String], modules: &BTreeMap<Module, Imports>) -> Vec<Module> {
+    let mut found = Vec::new();
+    let (mut here, mut path) = (module.clone(), path.to_vec());
+    for _ in 0..LONGEST_WAY {
+        let Some((deepest, left)) = descend(&here, &path, modules) else {
+            break;
+        };
+        found.push(deepest.clone());
+        let Some((name, behind)) = left.split_first() else {
+            break;
+        };
+        let Some(import) = modules[&deepest].get(name) else {
+            break;
+        };
+        (here, path) = (deepest, [import, behind].concat());
+    }
+    found
+}
+
+/// The deepest module on a path, and the names behind it.
+fn descend(
+    module: &Module,
+    path: &[String],
+    modules: &BTreeMap<Module, Imports>,
+) -> Option<(Module, Module)> {
     let mut here = module.clone();
     let mut names = path.iter().peekable();
-    match path.first()?.as_str() {
-        "crate" => here.clear(),
-        "self" | "super" => {}
-        child => {
-            let mut inside = module.clone();
-            inside.push(child.to_owned());
-            sources.get(&inside)?;
-        }
+    if names.next_if(|name| *name == "crate").is_some() {
+        here.clear();
     }
-    while let Some(name) = names.next_if(|name| ["crate", "self", "super"].contains(&name.as_str()))
-    {
+    while let Some(name) = names.next_if(|name| ["self", "super"].contains(&name.as_str())) {
         if name == "super" {
             here.pop()?;
         }
     }
-    for name in names {
-        here.push(name.clone());
-        if !sources.contains_key(&here) {
+    while let Some(name) = names.peek() {
+        here.push((*name).clone());
+        if !modules.contains_key(&here) {
             here.pop();
             break;
         }
+        names.next();
     }
-    Some(here)
+    Some((here, names.cloned().collect()))
 }
 
 /// The arrows of each circle: of modules that lead to one another.

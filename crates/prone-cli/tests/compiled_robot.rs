@@ -94,28 +94,90 @@ fn a_file_goes_over_none_that_was_read() {
 }
 
 #[test]
-fn checking_a_robot_says_when_its_compiled_file_is_stale() {
+fn a_file_goes_over_a_compiled_robot_and_over_nothing_else() {
     let home = home();
-    let state = || {
-        let text = said(&prone(home.path(), &["check", "robot"]));
-        assert!(text.ends_with("\n\nvalid\n"), "{text}");
-        let json = said(&prone(home.path(), &["check", "robot", "--json"]));
-        let json: serde_json::Value = serde_json::from_str(&json).unwrap();
-        let line = text.lines().find(|line| line.contains(".compiled.json"));
-        let line = line.map(str::to_owned);
-        (line, json["compiled"]["fresh"].as_bool())
-    };
-    assert_eq!(state(), (None, None));
+    let at = |file: &str| home.path().join(file);
+    let to = |file: &str| prone(home.path(), &["compile", "robot", "--out", file]);
+    fs::write(at("gait.toml"), "name = \"mine\"\n").unwrap();
+    fs::write(at("other.json"), "{\"format\": \"something else\"}").unwrap();
+    fs::write(at("empty"), "").unwrap();
+    fs::write(at("bytes"), b"\xff\xfe").unwrap();
+    for file in ["gait.toml", "other.json", "empty", "bytes"] {
+        let before = fs::read(at(file)).unwrap();
+        let message = refused(&to(file));
+        assert_eq!(
+            message,
+            format!(
+                "error: {file} is there already and is no compiled robot: it is not overwritten\n"
+            )
+        );
+        assert_eq!(fs::read(at(file)).unwrap(), before);
+    }
+    // A stale one, and one of another version of the format.
+    said(&to("nao.json"));
+    let text = fs::read_to_string(at("nao.json")).unwrap();
+    for (old, new) in [
+        ("\"sources_sha256\": \"", "\"sources_sha256\": \"0"),
+        ("\"format_version\": 1", "\"format_version\": 99"),
+    ] {
+        let other = text.replacen(old, new, 1);
+        assert_ne!(other, text);
+        fs::write(at("nao.json"), other).unwrap();
+        said(&to("nao.json"));
+        assert_eq!(fs::read_to_string(at("nao.json")).unwrap(), text);
+    }
+    // The place beside the sources is its own.
+    fs::write(at("robot/robot.compiled.json"), &text[..100]).unwrap();
     said(&prone(home.path(), &["compile", "robot"]));
-    assert_eq!(state(), (None, Some(true)));
+    assert_eq!(
+        fs::read_to_string(at("robot/robot.compiled.json")).unwrap(),
+        text
+    );
+    let to_a_device = to("/dev/null");
+    assert_eq!(to_a_device.status.code(), Some(0));
+}
+
+#[test]
+fn checking_a_robot_fails_when_its_compiled_file_is_stale() {
+    let home = home();
+    let check = |args: &[&str]| {
+        let output = prone(home.path(), &[&["check", "robot"], args].concat());
+        let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
+        let (out, err) = (text(&output.stdout), text(&output.stderr));
+        (output.status.code(), out, err)
+    };
+    let state = || {
+        let (code, out, err) = check(&[]);
+        assert_eq!(out.ends_with("\n\nvalid\n"), code == Some(0), "{out}");
+        assert!(out.contains("l1 toe-ankle"), "{out}");
+        let (json_code, json, json_err) = check(&["--json"]);
+        assert_eq!((json_code, &json_err), (code, &err));
+        let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+        (code, err, json["compiled"]["fresh"].as_bool())
+    };
+    assert_eq!(state(), (Some(0), String::new(), None));
+    said(&prone(home.path(), &["compile", "robot"]));
+    assert_eq!(state(), (Some(0), String::new(), Some(true)));
 
     let toml = alone(NAO.toml).replacen("span_mm = 430.0", "span_mm = 431.0", 1);
     fs::write(home.path().join("robot/robot.toml"), toml).unwrap();
-    let (line, fresh) = state();
-    let line = line.unwrap();
-    let stale = "robot/robot.compiled.json is stale: it was compiled from ";
-    assert!(line.starts_with(stale), "{line}");
-    assert_eq!(fresh, Some(false));
+    let (code, message, fresh) = state();
+    assert_eq!((code, fresh), (Some(1), Some(false)));
+    let stale = "error: the robot in robot is valid, but not the compiled one beside it: \
+                 robot/robot.compiled.json is stale: it was compiled from ";
+    assert!(message.starts_with(stale), "{message}");
+    let renewal = "; `prone robot compile robot` renews it\n";
+    assert!(message.ends_with(renewal), "{message}");
     said(&prone(home.path(), &["compile", "robot"]));
-    assert_eq!(state().1, Some(true));
+    assert_eq!(state(), (Some(0), String::new(), Some(true)));
+
+    fs::write(home.path().join("robot/robot.compiled.json"), "{}").unwrap();
+    let (code, message, fresh) = state();
+    assert_eq!((code, fresh), (Some(1), Some(false)));
+    assert!(
+        message.contains("robot/robot.compiled.json:1:"),
+        "{message}"
+    );
+    let renewal = "; `prone robot compile robot` writes it anew\n";
+    assert!(message.ends_with(renewal), "{message}");
 }

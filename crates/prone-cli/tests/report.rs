@@ -143,6 +143,7 @@ fn a_page_loads_nothing_and_says_what_it_shows() {
     let frames = elements(&page, "iframe");
     assert_eq!(frames.len(), 1);
     assert!(frames[0].contains("sandbox=\"allow-scripts\""));
+    assert!(page.contains("Text without a source is about NAO H25 V4."));
     // The crawl that was named, and in the report of a reproduction one gait beside the other.
     assert!(frames[0].contains("title=\"Replay: low-175 · under-plate\""));
     let own = text(Path::new(&results().reproduction).join("report.html"));
@@ -182,7 +183,7 @@ fn what_a_card_says_is_in_the_record() {
             "{recorded} is not {ours}"
         );
     }
-    // The maker says that the NAO is 574 mm high.
+    // The manufacturer says that the NAO is 574 mm high.
     let heights = number(&card["standing_heights_per_s"]);
     assert!((heights * 574.0 - number(&summary["mm_per_s"])).abs() < 1e-9);
     let tops = summary["top_mm"].as_object().unwrap().values();
@@ -229,7 +230,7 @@ fn identity_the_joints_of_a_card_are_those_of_the_rows() {
 
 /// Motors of the NAO's legs: stall 68 mN·m, 8,300 turns a minute without load, ratio 130.85.
 #[test]
-fn reference_winding_loss_is_that_of_the_maker_s_motor() {
+fn reference_winding_loss_is_that_of_the_manufacturer_s_motor() {
     let summary = json(Path::new(&results().crawl).join("summary.json"));
     let joints = summary["joints"].as_array().unwrap();
     let knee = joints

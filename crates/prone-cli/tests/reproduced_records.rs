@@ -88,8 +88,8 @@ fn records_are_whole_and_small() {
     assert_eq!(record.run.command, Command::ReproducePull);
     assert!(record.run.gait.text.contains("constant_deg = 16.5"));
     assert_eq!(record.stages, [(0, "pull".to_owned())]);
-    // The maker's link masses sum to 5.305 kg. In a pull of a second the body still comes to rest on
-    // its limbs: the mean is within a tenth of the weight.
+    // The manufacturer's link masses sum to 5.305 kg. In a pull of a second the body still comes to
+    // rest on its limbs: the mean is within a tenth of the weight.
     let weight = 5.305 * 9.81;
     let forces = record.contacts.iter().map(|contact| contact.force_n.z);
     let carried = forces.sum::<f64>() / record.rows.len() as f64;

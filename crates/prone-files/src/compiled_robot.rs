@@ -43,7 +43,7 @@ use document::stated;
 
 use crate::error::FileError;
 use crate::plain_name::is_plain;
-use crate::robot_folder::RobotFiles;
+use crate::robot_folder::{RobotFiles, Version};
 use crate::shipped::RobotSource;
 use crate::text_file;
 
@@ -66,15 +66,6 @@ pub struct CompiledRobot {
     version: Option<Version>,
     sources_hash: String,
     engine: String,
-}
-
-/// Which version of which family a robot is.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Version {
-    /// The family's name.
-    pub family: String,
-    /// The version's name.
-    pub version: String,
 }
 
 /// Why a compiled robot cannot be used.
@@ -119,7 +110,8 @@ pub enum CompiledRobotError {
     },
     /// Its sources have changed since.
     #[error(
-        "{file} is stale: it was compiled from sources with the hash {compiled}, and those in {folder} have {sources}; `prone robot compile {folder} --out {file}` renews it"
+        "{file} is stale: it was compiled from sources with the hash {compiled}, and those in {folder} have {sources}; `{}` renews it",
+        renewal(folder, file)
     )]
     Stale {
         /// The file.
@@ -131,6 +123,21 @@ pub enum CompiledRobotError {
         /// SHA-256 of what they are now.
         sources: String,
     },
+}
+
+/// The command that writes a compiled robot anew.
+fn renewal(folder: &str, file: &str) -> String {
+    if Path::new(folder).join(FILE_NAME) == Path::new(file) {
+        format!("prone robot compile {folder}")
+    } else {
+        format!("prone robot compile {folder} --out {file}")
+    }
+}
+
+/// Whether a text is a compiled robot by what it says of itself, whatever its version and its sources
+/// are, and whatever else is in it.
+pub fn is_compiled_robot(text: &str) -> bool {
+    serde_json::from_str::<Head>(text).is_ok_and(|head| head.format == FORMAT)
 }
 
 /// The file as it is written.
@@ -162,12 +169,12 @@ impl CompiledRobot {
     /// [`Violation`] if the robot could not be read again from [`CompiledRobot::text`]: a name that
     /// is empty, say, or a number that is none.
     pub fn new(robot: &Robot, sources: &RobotFiles, engine: String) -> Result<Self, Violation> {
-        let member = sources.member.as_ref();
+        let version = sources.version.as_ref();
         Self::from_document(Document {
             format: FORMAT.to_owned(),
             format_version: FORMAT_VERSION,
-            family: member.map(|member| member.family.clone()),
-            version: member.map(|member| member.version.clone()),
+            family: version.map(|version| version.family.clone()),
+            version: version.map(|version| version.version.clone()),
             sources_sha256: sources.hash(),
             engine,
             robot: RobotDocument::from_robot(robot),

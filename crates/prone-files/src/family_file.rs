@@ -18,14 +18,14 @@ use crate::plain_name::is_plain;
 /// The contents of a `family.toml`.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct FamilyFile {
+pub(crate) struct FamilyFile {
     /// The family's name.
-    pub name: Spanned<String>,
+    pub(crate) name: Spanned<String>,
     /// Folder of the version that the family stands for.
-    pub default: Spanned<String>,
+    pub(crate) default: Spanned<String>,
     /// Which gaits the program uses.
     #[serde(default)]
-    pub defaults: DefaultsTable,
+    pub(crate) defaults: DefaultsTable,
 }
 
 impl FamilyFile {
@@ -33,7 +33,7 @@ impl FamilyFile {
     ///
     /// # Errors
     /// [`FileError`] with line and column.
-    pub fn parse(file: &str, text: &str) -> Result<Self, FileError> {
+    pub(crate) fn parse(file: &str, text: &str) -> Result<Self, FileError> {
         let source = Source { file, text };
         let family: Self = source.parse()?;
         for (name, whose) in [(&family.name, "a family"), (&family.default, "a version")] {

@@ -11,7 +11,7 @@ pub mod cycle_file;
 pub mod defaults;
 mod error;
 mod exactly;
-pub mod family_file;
+mod family_file;
 pub mod gait_file;
 pub mod gait_text;
 pub mod gaits;

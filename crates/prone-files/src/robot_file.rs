@@ -27,7 +27,7 @@ pub type Number = Placed<f64>;
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RobotFile {
-    /// The maker's name of the model.
+    /// The manufacturer's name of the model.
     pub name: String,
     /// The family that the robot is a version of.
     pub family: Option<Name>,
@@ -184,7 +184,7 @@ pub struct DriveTable {
 pub struct StudyTable {
     /// The posture before the first command.
     pub start_posture: Name,
-    /// Joint ranges that replace the maker's, rad.
+    /// Joint ranges that replace the manufacturer's, rad.
     #[serde(default, deserialize_with = "ranges")]
     pub stops_rad: BTreeMap<Name, [f64; 2]>,
 }

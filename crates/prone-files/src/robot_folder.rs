@@ -37,23 +37,29 @@ pub struct RobotFiles {
     /// The MJCF model that it names.
     pub mjcf: String,
     /// Which version of which family it is, where it is one.
-    pub member: Option<Member>,
+    pub version: Option<Version>,
+    /// The `family.toml` of that family.
+    pub family_toml: Option<FamilyText>,
     /// Where its own gaits are.
     pub gaits: Gaits,
     /// The files that were read; of a robot that ships there are none.
     pub read: Vec<PathBuf>,
 }
 
-/// A robot as one version of a family.
+/// Which version of which family a robot is.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Member {
+pub struct Version {
     /// The family's name.
     pub family: String,
-    /// Which version of it the robot is: the name of its folder.
+    /// The version's name, which is that of its folder.
     pub version: String,
-    /// Name of the family's `family.toml`, as shown to a user.
+}
+
+/// A `family.toml`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FamilyText {
+    /// Name of the file, as shown to a user.
     file: String,
-    /// Text of that file.
     text: String,
 }
 
@@ -74,6 +80,15 @@ pub enum RobotFolderError {
         /// The folder.
         folder: String,
     },
+    /// There is no such robot.
+    #[error(
+        "there is no robot {name:?}: it is neither one that ships with prone ({}) nor a folder",
+        shipped::robot_names().collect::<Vec<_>>().join(", ")
+    )]
+    Unknown {
+        /// What was named.
+        name: String,
+    },
 }
 
 impl RobotFiles {
@@ -84,9 +99,11 @@ impl RobotFiles {
             folder: source.folder.to_owned(),
             toml: source.toml.to_owned(),
             mjcf: source.mjcf.to_owned(),
-            member: family.map(|family| Member {
+            version: family.map(|family| Version {
                 family: family.name.to_owned(),
                 version: source.version.to_owned(),
+            }),
+            family_toml: family.map(|family| FamilyText {
                 file: family.toml_name(),
                 text: family.toml.to_owned(),
             }),
@@ -101,12 +118,15 @@ impl RobotFiles {
     /// # Errors
     /// [`RobotFolderError`].
     pub fn named(name: &Path) -> Result<Self, RobotFolderError> {
-        if !name.exists()
-            && let Some(shipped) = name.to_str().and_then(shipped::robot)
-        {
-            return Ok(Self::shipped(shipped?));
+        if name.exists() {
+            return Self::read(name);
         }
-        Self::read(name)
+        match name.to_str().and_then(shipped::robot) {
+            Some(shipped) => Ok(Self::shipped(shipped?)),
+            None => Err(RobotFolderError::Unknown {
+                name: name.display().to_string(),
+            }),
+        }
     }
 
     /// Reads the robot of a folder, or the default version of a family's folder.
@@ -145,7 +165,7 @@ impl RobotFiles {
             text: &toml,
         };
         let mut read = vec![toml_path, mjcf_path];
-        let (member, gaits) = match table.family {
+        let (version, family_toml, gaits) = match table.family {
             Some(name) => {
                 let family = match family {
                     Some(family) => family,
@@ -154,20 +174,22 @@ impl RobotFiles {
                 read.push(family.folder.join(FAMILY_FILE));
                 let gaits = Gaits::beside(&family.folder);
                 check_names(&family.table.defaults, family.source(), &gaits)?;
-                (Some(family.member(folder, &name, source)?), gaits)
+                let version = family.version(folder, &name, source)?;
+                (Some(version), Some(family.into_text()), gaits)
             }
             None if family.is_some() => {
                 let message = "a version names its family: the key family is missing";
                 return Err(source.error(0..0, message).into());
             }
-            None => (None, Gaits::beside(folder)),
+            None => (None, None, Gaits::beside(folder)),
         };
         check_names(&table.defaults, source, &gaits)?;
         Ok(Self {
             folder: folder.display().to_string(),
             toml,
             mjcf,
-            member,
+            version,
+            family_toml,
             gaits,
             read,
         })
@@ -191,8 +213,8 @@ impl RobotFiles {
     pub fn defaults(&self) -> Result<Defaults, RobotFolderError> {
         let mut defaults = shipped::defaults()?;
         let own = RobotFile::parse(&self.toml_name(), &self.toml)?.defaults;
-        let family = match &self.member {
-            Some(member) => FamilyFile::parse(&member.file, &member.text)?.defaults,
+        let family = match &self.family_toml {
+            Some(family) => FamilyFile::parse(&family.file, &family.text)?.defaults,
             None => DefaultsTable::default(),
         };
         if !own.has_under() && !family.has_under() {
@@ -260,14 +282,14 @@ impl Family {
     }
 
     /// The robot of a folder as a version of this family, which it has to name.
-    fn member(
-        self,
+    fn version(
+        &self,
         folder: &Path,
         named: &Name,
         source: Source<'_>,
-    ) -> Result<Member, RobotFolderError> {
-        let family = self.table.name.into_inner();
-        if family != *named.get_ref() {
+    ) -> Result<Version, RobotFolderError> {
+        let family = self.table.name.get_ref();
+        if family != named.get_ref() {
             let message = format!(
                 "the family of {} is called {family:?}, not {:?}",
                 self.file,
@@ -287,12 +309,17 @@ impl Family {
             );
             return Err(source.error(named.span(), message).into());
         };
-        Ok(Member {
-            family,
+        Ok(Version {
+            family: family.clone(),
             version: version.to_owned(),
+        })
+    }
+
+    fn into_text(self) -> FamilyText {
+        FamilyText {
             file: self.file,
             text: self.text,
-        })
+        }
     }
 }
 

@@ -20,9 +20,9 @@ fn plan(robot: &Robot, stops: &[Range], turn: f64) -> CheckedCycle {
     CheckedCycle::plan(robot, stops, &cycle, turn, TimeScale::ONE).unwrap()
 }
 
-/// Mass and links of the maker, within the digits that are printed.
+/// Mass and links of the manufacturer, within the digits that are printed.
 #[test]
-fn reference_mass_and_chain_are_the_makers() {
+fn reference_mass_and_chain_are_the_manufacturers() {
     let robot = nao();
     assert!((robot.mass() - 5.305).abs() < 5e-4, "{} kg", robot.mass());
     let mapping = Mapping::new(&robot, MappingVariant::Exact, ArmMode::FlatForearm).unwrap();

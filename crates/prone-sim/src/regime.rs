@@ -32,7 +32,7 @@ pub struct Regime {
 /// Which joint stops a regime uses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stops {
-    /// The maker's.
+    /// The manufacturer's.
     Maker,
     /// The robot's study stops: a sagging joint must not lean on its stop, which would take the
     /// torque away from the motor that is measured.
@@ -42,7 +42,7 @@ pub enum Stops {
 /// Which torque limit a regime uses.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Effort {
-    /// The maker's effort limit of each joint.
+    /// The manufacturer's effort limit of each joint.
     Published,
     /// The same limit for all joints, N·m.
     Uniform(f64),
@@ -91,7 +91,7 @@ impl Regime {
         time_step: TIME_STEP,
     };
 
-    /// Contacts that stick, with the maker's limits on and the robot's own servos: for moving
+    /// Contacts that stick, with the manufacturer's limits on and the robot's own servos: for moving
     /// forward.
     pub const LOCOMOTION: Self = Self {
         name: "locomotion",

@@ -45,11 +45,11 @@ fn the_linked_engine_is_the_one_the_bindings_were_made_for() {
 }
 
 #[test]
-fn reference_mass_is_the_sum_of_the_makers_links() {
+fn reference_mass_is_the_sum_of_the_manufacturers_links() {
     assert_near(nao().robot().mass(), 5.305, 5e-4, "mass, kg");
 }
 
-/// The figures that follow from the maker's joint positions (tolerances: the digits printed).
+/// The figures that follow from the manufacturer's joint positions (tolerances: the digits printed).
 #[test]
 fn reference_derived_chain() {
     let loaded = nao();

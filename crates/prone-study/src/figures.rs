@@ -5,6 +5,7 @@
 //! "optimal"; figures that compare gaits show every gait there is. What the records lack is left
 //! out: a panel, a curve or a whole figure.
 //!
+//! `records` holds what is drawn and is not in `crate::record`; `check` refuses what no axis can show.
 //! `style` is the look, `svg` and `font` draw, `axis`, `bar`, `panel` and `sheet` lay out, `raster` makes
 //! pixels; `parameters`, `chain`, `torque`, `comparison` and `cost` are the figures. `torque_map` draws
 //! what the thesis does not: slices of a map, with the cells and colours of `heat`.
@@ -22,6 +23,7 @@ mod heat;
 mod panel;
 mod parameters;
 pub(crate) mod raster;
+mod records;
 mod search;
 mod selection;
 mod sheet;
@@ -32,11 +34,10 @@ mod tests;
 mod torque;
 mod torque_map;
 
-pub use crawl_angles::{AngleRecord, AngleRow, figure as crawl_angles};
+pub use crawl_angles::figure as crawl_angles;
 pub use frontier::figure as frontier_figure;
-pub use search::{
-    ConfirmedRecord, GenerationRecord, Scores, SearchRecord, confirmation, generations,
-};
+pub use records::{AngleRecord, AngleRow, ConfirmedRecord, GenerationRecord, Scores, SearchRecord};
+pub use search::{confirmation, generations};
 
 use crate::published;
 use crate::record::{ChainRecord, CostRecord, PullRecord};

@@ -68,7 +68,7 @@ pub struct SheetRow {
 /// A joint stopped at its limit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SheetClamp {
-    /// The maker's name of the joint.
+    /// The manufacturer's name of the joint.
     pub joint: String,
     /// In how many of the samples.
     pub samples: usize,
@@ -80,7 +80,7 @@ pub struct SheetClamp {
     pub largest_deg: f64,
 }
 
-/// Plans a gait within the maker's limits.
+/// Plans a gait within the manufacturer's limits.
 ///
 /// # Errors
 /// [`TrajectoryError`].

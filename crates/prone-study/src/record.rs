@@ -99,7 +99,7 @@ pub struct RunRecord {
 pub struct ClampRecord {
     /// Name of the gait.
     pub gait: String,
-    /// The maker's name of the joint.
+    /// The manufacturer's name of the joint.
     pub joint: String,
     /// In how many samples it was stopped at the limit.
     pub samples: usize,

@@ -11,7 +11,7 @@ use prone::robot::{ContactGroup, JointAngles, Robot, SideLayout};
 /// A robot as the crawl sees it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RobotSheet {
-    /// The maker's name.
+    /// The manufacturer's name.
     pub robot: String,
     /// Total mass, kg.
     pub mass_kg: f64,
@@ -55,17 +55,17 @@ pub struct ChainSheet {
 /// One joint of the chain.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DriveSheet {
-    /// The maker's name.
+    /// The manufacturer's name.
     pub joint: String,
     /// Limits, degrees.
     pub range_deg: [f64; 2],
-    /// The maker's effort limit, N·m.
+    /// The manufacturer's effort limit, N·m.
     pub effort_nm: f64,
     /// The motor's continuous torque at the joint, N·m.
     pub nominal_nm: Option<f64>,
     /// The motor's stall torque at the joint, N·m.
     pub stall_nm: Option<f64>,
-    /// The maker's speed limit, rad/s.
+    /// The manufacturer's speed limit, rad/s.
     pub speed_rad_s: f64,
 }
 
@@ -74,7 +74,7 @@ pub struct DriveSheet {
 pub struct PostureOutside {
     /// Name of the posture.
     pub posture: String,
-    /// The maker's name of the joint.
+    /// The manufacturer's name of the joint.
     pub joint: String,
     /// How far outside, degrees, negative below.
     pub excess_deg: f64,

@@ -42,7 +42,7 @@ pub(crate) struct RobotInfo {
     pub(crate) version: Option<String>,
     pub(crate) folder: String,
     pub(crate) sha256: String,
-    /// How high it stands, mm, where its maker says so.
+    /// How high it stands, mm, where its manufacturer says so.
     pub(crate) standing_height_mm: Option<f64>,
 }
 
@@ -61,11 +61,11 @@ impl RobotInfo {
 
     pub(crate) fn of(robot: &LoadedRobot) -> Self {
         let files = robot.files();
-        let member = files.member.as_ref();
+        let version = files.version.as_ref();
         Self {
             name: robot.robot().name.clone(),
-            family: member.map(|member| member.family.clone()),
-            version: member.map(|member| member.version.clone()),
+            family: version.map(|version| version.family.clone()),
+            version: version.map(|version| version.version.clone()),
             folder: files.folder.clone(),
             sha256: files.hash(),
             // The digits of robot.toml, which metres do not keep.

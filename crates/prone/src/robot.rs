@@ -43,9 +43,9 @@ pub struct JointId(pub usize);
 /// A humanoid as the crawl needs it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Robot {
-    /// The maker's name of the model.
+    /// The manufacturer's name of the model.
     pub name: String,
-    /// How high it stands, m, where the maker says so: what heights and speeds are compared by.
+    /// How high it stands, m, where the manufacturer says so: heights and speeds are compared by it.
     pub standing_height: Option<f64>,
     /// Parents before children; the first one floats freely.
     pub bodies: Vec<Body>,
@@ -93,7 +93,7 @@ pub struct Body {
 /// One hinge.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Joint {
-    /// The maker's name.
+    /// The manufacturer's name.
     pub name: String,
     /// The body it moves.
     pub body: BodyId,
@@ -101,11 +101,11 @@ pub struct Joint {
     pub axis: DVec3,
     /// A point of the axis in the moved body's frame.
     pub anchor: Point<Link>,
-    /// The maker's limits, rad.
+    /// The manufacturer's limits, rad.
     pub range: Range,
-    /// The maker's effort limit, N·m.
+    /// The manufacturer's effort limit, N·m.
     pub effort_limit: f64,
-    /// The maker's speed limit, rad/s.
+    /// The manufacturer's speed limit, rad/s.
     pub speed_limit: f64,
     /// Velocity gain of the simulated servo, N·m·s/rad.
     pub servo_gain: f64,
@@ -375,7 +375,7 @@ impl Robot {
         self.bodies.iter().map(|body| body.mass).sum()
     }
 
-    /// The joints' limits as the maker gives them.
+    /// The joints' limits as the manufacturer gives them.
     pub fn stops(&self) -> Vec<Range> {
         self.joints.iter().map(|joint| joint.range).collect()
     }

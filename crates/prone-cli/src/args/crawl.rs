@@ -32,11 +32,12 @@ Examples:
   prone crawl run thesis-nominal --scene table --cycles 25 --record out/table
   prone crawl run hip-10 --uphill low-175 --scene ramp --seed 1 --cycles 20
 
-Contact regime `locomotion`: friction 0.7 where nothing else is said, the maker's effort and joint
-limits on. The robot starts with its foremost point at x = 0; a plate of --ceiling-mm begins 50 mm
-ahead. The record folder appears when all is done, and replaces an earlier result in one step; all
-its files but timing.json are the same, byte for byte, for the same input, on any number of
-threads. After Ctrl-C, at once, nothing is written.")]
+Contact regime `locomotion`: friction 0.7 where nothing else is said, the manufacturer's effort and
+joint limits on. The robot starts with its foremost point at x = 0; a plate of --ceiling-mm begins
+50 mm ahead. The record folder appears when all is done, and replaces an earlier result in one step;
+all its files but timing.json are the same, byte for byte, for the same input, on any number of
+threads. Ctrl-C ends the simulation at once; pictures of a record that are being drawn are finished
+before the program ends. In both cases nothing is written. A second Ctrl-C ends the program at once.")]
 pub(crate) struct CrawlRunArgs {
     #[command(flatten)]
     pub(crate) gait: GaitArg,

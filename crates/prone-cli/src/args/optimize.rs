@@ -27,7 +27,7 @@ pub(crate) struct CostArgs {
     pub(crate) gait: GaitArg,
     #[command(flatten)]
     pub(crate) pricing: PricingArgs,
-    /// Print {\"cost\", \"torque\", \"violations\", …}
+    /// Print {"cost", "torque", "violations", …}
     #[arg(long)]
     pub(crate) json: bool,
 }

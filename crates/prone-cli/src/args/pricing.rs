@@ -70,8 +70,8 @@ pub(crate) enum ObjectiveName {
     Published,
     /// ∫ Σ w τ² dt, N²·m²·s
     Torque,
-    /// Largest torque over the maker's effort limit; of cycles the largest that a shoulder's servo
-    /// demands, before the limit cuts it, N·m
+    /// Largest torque over the manufacturer's effort limit; of cycles the largest that a shoulder's
+    /// servo demands, before the limit cuts it, N·m
     Peak,
     /// ∫ Σ (τ/nominal torque)² dt, s: what warms the motors; of cycles per metre, s/m
     Heat,

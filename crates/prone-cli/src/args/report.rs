@@ -5,8 +5,9 @@ use std::path::PathBuf;
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
-  prone report out/reproduce --out out/report
-  prone report out/reproduce out/torque out/low out/table
+  prone reproduce
+  prone crawl run low-175 --record out/low
+  prone report out/reproduce out/low --out out/report
   prone report out/low --out low.html     the page alone
   prone report out/low --json | jq .cards
 

@@ -7,8 +7,10 @@ use std::path::PathBuf;
 Examples:
   prone crawl run low-175 --cycles 3 --record out/low
   prone view out/low --open               out/low.html, in the browser
-  prone view out/low --compare out/table --out both.html
-  prone view out/pulls/nominal-5s --compare out/pulls/optimal-5s   after prone reproduce
+  prone crawl run thesis-nominal --cycles 3 --record out/nominal
+  prone view out/low --compare out/nominal --out both.html
+  prone reproduce
+  prone view out/reproduce/pulls/nominal-5s --compare out/reproduce/pulls/optimal-5s
 
 The page holds all it needs: it loads nothing, works without a network, and can be sent to others.
 Of a record that was cut off it shows what is left; the exit code is then 2.

@@ -142,7 +142,7 @@ fn suspended(checkpoint: &Checkpoint) -> Failure {
 /// What each run found, confirmed, and the cycles under their names.
 fn found(quest: &Quest<'_>, searches: &[Search]) -> Result<(Frontier, Vec<Cycle>), Failure> {
     let mut frontier = Frontier {
-        objective: quest.objective.name(),
+        objective: quest.objective,
         margin_mm: quest.margin_mm,
         found: Vec::new(),
         compared: Vec::new(),

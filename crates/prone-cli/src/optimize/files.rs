@@ -105,7 +105,7 @@ fn header(gait: &Gait, outcome: &Outcome, pricing: &Pricing) -> String {
 /// Which joints the gait asks past their stops, where it asks any.
 fn clamps(gait: &Gait, pricing: &Pricing) -> Option<String> {
     let robot = pricing.robot.robot();
-    // The maker's: a regime may have moved them.
+    // The manufacturer's: a regime may have moved them.
     let stops = robot.stops();
     let trajectory =
         CheckedTrajectory::plan(robot, &stops, gait, pricing.duration, INTERVALS).ok()?;

@@ -7,6 +7,7 @@ use anyhow::anyhow;
 use serde_json::json;
 
 use prone_files::compiled_robot::{self, CompiledRobot, CompiledRobotError};
+use prone_files::text_file;
 use prone_sim::LoadedRobot;
 
 use crate::args::RobotCompileArgs;
@@ -42,7 +43,8 @@ pub(crate) fn beside(loaded: &LoadedRobot) -> Option<Result<CompiledRobot, Compi
     }
 }
 
-/// Where the file goes, which is none of those that were read.
+/// Where the file goes, which is none of those that were read, and no file of another kind. What is
+/// broken in the place that is the compiled robot's own is written anew.
 fn place(args: &RobotCompileArgs, loaded: &LoadedRobot) -> Result<PathBuf, Failure> {
     let files = loaded.files();
     let out = match &args.out {
@@ -55,14 +57,27 @@ fn place(args: &RobotCompileArgs, loaded: &LoadedRobot) -> Result<PathBuf, Failu
         }
         None => Path::new(&files.folder).join(compiled_robot::FILE_NAME),
     };
-    match table_file::same_file(&out, &files.read) {
-        None => Ok(out),
-        Some(input) => Err(Failure::Input(anyhow!(
+    if let Some(input) = table_file::same_file(&out, &files.read) {
+        return Err(Failure::Input(anyhow!(
             "{} would overwrite {}, which was read",
             out.display(),
             input.display()
-        ))),
+        )));
     }
+    if args.out.is_some() && is_of_another_kind(&out) {
+        return Err(Failure::Input(anyhow!(
+            "{} is there already and is no compiled robot: it is not overwritten",
+            out.display()
+        )));
+    }
+    Ok(out)
+}
+
+/// Whether a regular file is there that is no compiled robot, of any version; one that cannot be read
+/// is none. A device or a pipe has nothing to lose.
+fn is_of_another_kind(path: &Path) -> bool {
+    let text = || text_file::read(path).unwrap_or_default();
+    path.is_file() && !compiled_robot::is_compiled_robot(&text())
 }
 
 fn say(args: &RobotCompileArgs, file: &Path, compiled: &CompiledRobot) -> Result<(), Failure> {

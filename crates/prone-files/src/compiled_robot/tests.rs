@@ -445,8 +445,12 @@ fn beside_its_sources_a_robot_is_read_while_it_is_fresh() {
     std::fs::write(home.path().join(FILE_NAME), shipped::NAO.compiled).unwrap();
     assert_eq!(CompiledRobot::read_beside(&fresh).unwrap(), nao());
     let stale = CompiledRobot::read_beside(&changed_sources(&folder)).unwrap_err();
-    let renewal = format!("`prone robot compile {folder} --out {folder}/{FILE_NAME}` renews it");
+    let renewal = format!("; `prone robot compile {folder}` renews it");
     assert!(stale.to_string().ends_with(&renewal), "{stale}");
+    let elsewhere = nao().check_fresh("/tmp/nao.json", &changed_sources(&folder));
+    let elsewhere = elsewhere.unwrap_err().to_string();
+    let renewal = format!("; `prone robot compile {folder} --out /tmp/nao.json` renews it");
+    assert!(elsewhere.ends_with(&renewal), "{elsewhere}");
 }
 
 #[test]
@@ -458,7 +462,7 @@ fn a_robot_knows_its_family_and_version() {
         ("nao", "v4")
     );
     let alone = RobotFiles {
-        member: None,
+        version: None,
         ..sources()
     };
     let alone = CompiledRobot::new(nao.robot(), &alone, String::new()).unwrap();

@@ -50,9 +50,9 @@ fn a_family_s_folder_is_its_default_version() {
     let files = at("nao");
     assert_eq!(files, at("nao/v4"));
     assert_eq!(files.hash(), RobotFiles::shipped(&NAO).hash());
-    let member = files.member.clone().unwrap();
+    let version = files.version.clone().unwrap();
     assert_eq!(
-        (member.family.as_str(), member.version.as_str()),
+        (version.family.as_str(), version.version.as_str()),
         ("nao", "v4")
     );
     assert!(files.folder.ends_with("/nao/v4"));
@@ -63,7 +63,7 @@ fn a_family_s_folder_is_its_default_version() {
     );
 
     let other = at("nao/v5");
-    assert_eq!(other.member.clone().unwrap().version, "v5");
+    assert_eq!(other.version.clone().unwrap().version, "v5");
     assert_ne!(other.hash(), files.hash());
     assert_eq!(other.gaits, files.gaits);
 }
@@ -81,7 +81,7 @@ fn a_version_is_found_by_any_path_to_its_folder() {
         "nao/latest",
     ] {
         let files = RobotFiles::read(&home.path().join(path)).unwrap();
-        assert_eq!(files.member.unwrap().version, "v5", "{path}");
+        assert_eq!(files.version.unwrap().version, "v5", "{path}");
     }
 }
 
@@ -100,7 +100,7 @@ fn a_robot_without_a_family_is_two_files_and_may_have_gaits() {
         ("own/gaits/mine.toml", &low),
     ]);
     let bare = RobotFiles::read(&home.path().join("bare")).unwrap();
-    assert_eq!((&bare.member, &bare.gaits), (&None, &Gaits::None));
+    assert_eq!((&bare.version, &bare.gaits), (&None, &Gaits::None));
     assert_eq!(bare.defaults().unwrap(), shipped::defaults().unwrap());
 
     let own = RobotFiles::read(&home.path().join("own")).unwrap();

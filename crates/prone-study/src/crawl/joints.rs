@@ -1,4 +1,4 @@
-//! What each motor did in a crawl, beside what its maker says it can.
+//! What each motor did in a crawl, beside what its manufacturer says it can.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,9 +9,9 @@ use prone_sim::crawl::Effort;
 /// says demanded.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct JointSummary {
-    /// The maker's name.
+    /// The manufacturer's name.
     pub joint: String,
-    /// The maker's effort limit, N·m.
+    /// The manufacturer's effort limit, N·m.
     pub effort_limit_nm: f64,
     /// Continuous torque of the motor at the joint, before gear losses, N·m, where it is known.
     pub nominal_nm: Option<f64>,

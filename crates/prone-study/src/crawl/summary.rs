@@ -61,7 +61,7 @@ pub struct CrawlSummary {
     pub pull_body_share: f64,
     /// The same during recoveries.
     pub recovery_body_share: f64,
-    /// Largest actuator torque over the maker's effort limit.
+    /// Largest actuator torque over the manufacturer's effort limit.
     pub peak_torque_over_rated: f64,
     /// Whose that is.
     pub peak_torque_joint: String,

@@ -128,7 +128,7 @@ pub struct ConfirmedSetting {
     pub top_part: Option<String>,
     /// Heat per metre, s/m.
     pub heat_per_metre_s: Option<f64>,
-    /// Largest actuator torque over the maker's effort limit.
+    /// Largest actuator torque over the manufacturer's effort limit.
     pub peak_torque_over_rated: Option<f64>,
     /// Whose.
     pub peak_joint: Option<String>,
@@ -181,7 +181,7 @@ fn row(setting: &Setting, trial: &Trial, kept: f64) -> ConfirmedSetting {
         mm_per_s: Some(trial.advance / trial.seconds * 1e3),
         yaw_deg: Some(trial.yaw.to_degrees()),
         top_mm: Some(trial.top.0 * 1e3),
-        top_part: Some(trial.top.1.to_owned()),
+        top_part: Some(trial.top.1.name().to_owned()),
         heat_per_metre_s: Some(trial.heat_per_metre).filter(|heat| heat.is_finite()),
         peak_torque_over_rated: Some(trial.peak_over_limit.0),
         peak_joint: Some(trial.peak_over_limit.1.clone()),
@@ -255,7 +255,9 @@ pub fn check_steering(settings: &[Setting], cycle: &Cycle) -> Result<(), NotStee
         })?;
         match setting.spec.role {
             Role::Turn(_) => turned = turned.max(trial.yaw),
-            _ => thrown_off = further(thrown_off, trial.yaw),
+            Role::Value | Role::Keep(_) | Role::Beside | Role::Straight { .. } => {
+                thrown_off = further(thrown_off, trial.yaw);
+            }
         }
     }
     if turned > thrown_off {

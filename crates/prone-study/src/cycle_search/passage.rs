@@ -48,7 +48,7 @@ pub struct Tried {
     pub mm_per_cycle: f64,
     /// Speed, mm/s.
     pub mm_per_s: f64,
-    /// Largest actuator torque over the maker's effort limit.
+    /// Largest actuator torque over the manufacturer's effort limit.
     pub peak_torque_over_rated: f64,
     /// Whose.
     pub peak_joint: String,
@@ -137,7 +137,7 @@ impl Tried {
         Self {
             gait: cycle.pull.name.clone(),
             top_mm: trial.top.0 * 1e3,
-            top_part: trial.top.1.to_owned(),
+            top_part: trial.top.1.name().to_owned(),
             left_mm: (ceiling - trial.top.0) * 1e3,
             mm_per_cycle: trial.advance * 1e3,
             mm_per_s: trial.advance / trial.seconds * 1e3,

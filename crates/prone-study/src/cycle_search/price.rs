@@ -17,13 +17,15 @@ use prone::gait::{Clamp, LimitsPolicy};
 use prone::robot::{JointAngles, JointId};
 use prone_sim::crawl::CrawlError;
 use prone_sim::self_collision::{SelfCollision, SelfCollisionError};
+use serde::Serialize;
 
 use super::rules::{CycleRules, UNTRIED, above};
 use super::setting::{Role, Setting, SettingKind};
 use super::trial::{Trial, try_out};
 
 /// What is minimised.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum CycleObjective {
     /// ∫ Σ (τ / nominal torque)² dt per metre, s/m.
     Heat,
@@ -36,6 +38,16 @@ pub enum CycleObjective {
 }
 
 impl CycleObjective {
+    /// All objectives.
+    pub const ALL: [Self; 4] = [Self::Heat, Self::Advance, Self::Speed, Self::Peak];
+
+    /// The objective of a name in files and records, `None` for any other name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL
+            .into_iter()
+            .find(|objective| objective.name() == name)
+    }
+
     /// Name in files and records.
     pub const fn name(self) -> &'static str {
         match self {

@@ -4,15 +4,15 @@ use prone::gait::cycle::Cycle;
 use serde::Serialize;
 
 use super::frontier::{Confirmed, ConfirmedSetting};
-use super::price::CyclePrice;
+use super::price::{CycleObjective, CyclePrice};
 use crate::optimize::search::Search;
 use crate::tables::{finish, number};
 
 /// All searches of a frontier.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Frontier {
-    /// What was searched: `advance`, `speed` or `heat`.
-    pub objective: &'static str,
+    /// What was searched.
+    pub objective: CycleObjective,
     /// Distance kept from the ceiling, mm.
     pub margin_mm: f64,
     /// By ceiling and seed.

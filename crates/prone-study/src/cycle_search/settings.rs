@@ -1,7 +1,7 @@
 //! The settings in which cycles are priced and checked.
 //!
-//! All are the locomotion regime, with the maker's effort and joint limits on; friction, servo
-//! gains, time scale and the engine's step are what its name says.
+//! All are the locomotion regime, with the manufacturer's effort and joint limits on; friction,
+//! servo gains, time scale and the engine's step are what its name says.
 
 use prone::gait::cycle::{Cycle, TimeScale, TimeScaleError};
 use prone::gait::{PhaseDuration, PhaseDurationError};

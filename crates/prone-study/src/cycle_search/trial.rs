@@ -2,6 +2,7 @@
 
 use prone::crawl::Straight;
 use prone::gait::cycle::Cycle;
+use prone::robot::BodyPart;
 use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, Detail, End};
 
 use super::setting::{Setting, SettingKind};
@@ -16,7 +17,7 @@ pub struct Trial {
     /// How long it took, s.
     pub seconds: f64,
     /// Highest point of all cycles, m, and of which part of the body.
-    pub top: (f64, &'static str),
+    pub top: (f64, BodyPart),
     /// ∫ Σ (τ / nominal torque)² dt per metre, s/m.
     pub heat_per_metre: f64,
     /// Largest torque over the effort limit, and whose.
@@ -62,7 +63,7 @@ pub fn try_out(setting: &Setting, cycle: &Cycle) -> Result<Trial, CrawlError> {
 fn measured(setting: &Setting, crawl: &Crawl) -> Trial {
     let robot = setting.world.robot();
     let Some(last) = crawl.cycles.last() else {
-        return nothing(setting);
+        return nothing(setting, crawl);
     };
     let advance = last.advance();
     let (peak, joint) = last.effort.peak_over_limit(robot);
@@ -73,7 +74,7 @@ fn measured(setting: &Setting, crawl: &Crawl) -> Trial {
         setting: setting.spec.kind,
         advance: advance.forward,
         seconds: last.seconds,
-        top: (crawl.tops.highest(), crawl.tops.part().name()),
+        top: (crawl.tops.highest(), crawl.tops.part()),
         heat_per_metre: per_metre(last.effort.heat(robot), advance.forward),
         peak_over_limit: (peak, robot.joints[joint.0].name.clone()),
         demanded_shoulder: demanded[0].max(demanded[1]),
@@ -92,12 +93,13 @@ fn per_metre(cost: f64, advance: f64) -> f64 {
     }
 }
 
-fn nothing(setting: &Setting) -> Trial {
+/// What a crawl comes to that ended before its first cycle did.
+fn nothing(setting: &Setting, crawl: &Crawl) -> Trial {
     Trial {
         setting: setting.spec.kind,
         advance: 0.0,
         seconds: 0.0,
-        top: (f64::INFINITY, ""),
+        top: (f64::INFINITY, crawl.tops.part()),
         heat_per_metre: f64::INFINITY,
         peak_over_limit: (0.0, String::new()),
         demanded_shoulder: 0.0,

@@ -1,8 +1,9 @@
 //! Refuses records with numbers that no axis can show, before anything is drawn.
 
-use super::{AngleRecord, ConfirmedRecord, FigureError, SearchRecord};
 use prone::torque_map::{Row, TorqueMap};
 
+use super::FigureError;
+use super::records::{AngleRecord, ConfirmedRecord, SearchRecord};
 use crate::record::{ChainRecord, CostRecord, JOINTS, PullRecord};
 
 /// Beyond this a difference between neighbouring values is lost; no quantity here comes near it.

@@ -1,67 +1,12 @@
 //! Figure 31: joint angles of the left side over a few crawl cycles.
 
-use prone::robot::Robot;
-use prone_sim::crawl::Crawl;
-
 use super::axis::Axis;
 use super::panel::{Band, Curve, Panel};
+use super::records::{AngleRecord, AngleRow};
 use super::sheet::{KeyEntry, Sheet};
 use super::style::{BAND, CURVE_WIDTH, INK, LIGHT, Stroke};
 use super::{Figure, FigureError, Wording, check};
 use crate::published;
-use crate::tables::as_written;
-
-/// What is drawn of a crawl: the first cycles of some joints.
-#[derive(Debug, Clone, PartialEq)]
-pub struct AngleRecord {
-    /// Name of the cycle.
-    pub gait: String,
-    /// Names of the joints, in the order of the rows.
-    pub joints: Vec<String>,
-    /// Of the first cycles.
-    pub rows: Vec<AngleRow>,
-    /// How many cycles these are.
-    pub cycles: usize,
-}
-
-/// One instant.
-#[derive(Debug, Clone, PartialEq)]
-pub struct AngleRow {
-    /// Since the first pull began, s.
-    pub time_s: f64,
-    /// What was commanded, rad.
-    pub command_rad: Vec<f64>,
-    /// What was reached, rad.
-    pub angle_rad: Vec<f64>,
-}
-
-impl AngleRecord {
-    /// How many cycles are shown.
-    pub const CYCLES: usize = 4;
-
-    /// The left chain of a crawl that was simulated with rows, to the digits of `rows.csv`.
-    pub fn of(robot: &Robot, gait: &str, crawl: &Crawl) -> Self {
-        let joints = robot.chain.left.commanded_joints();
-        let rows = crawl.rows.iter().filter(|row| row.cycle < Self::CYCLES);
-        let rows = rows.map(|row| AngleRow {
-            time_s: as_written(row.time, 4),
-            command_rad: joints
-                .map(|joint| as_written(row.command[joint], 6))
-                .to_vec(),
-            angle_rad: joints
-                .map(|joint| as_written(row.angles[joint], 6))
-                .to_vec(),
-        });
-        Self {
-            gait: gait.to_owned(),
-            joints: joints
-                .map(|joint| robot.joints[joint.0].name.clone())
-                .to_vec(),
-            rows: rows.collect(),
-            cycles: Self::CYCLES.min(crawl.cycles.len()),
-        }
-    }
-}
 
 /// One panel for each joint; nothing without rows.
 ///

@@ -9,6 +9,7 @@ use super::style::{
 use super::svg::Point;
 use super::{Figure, Wording};
 use crate::cycle_search::frontier::ConfirmedSetting;
+use crate::cycle_search::price::CycleObjective;
 use crate::cycle_search::record::{Found, Frontier};
 use crate::cycle_search::setting::SettingKind;
 
@@ -60,9 +61,10 @@ pub fn figure(frontier: &Frontier) -> Option<Figure> {
              A search holds where, without touching the ceiling, it keeps 80 % of its advance at \
              friction 0.4 and 1, 0.8 and 1.7 times its duration and with 1 ms steps.",
             match frontier.objective {
-                "heat" => "least heat per metre",
-                "speed" => "largest speed",
-                _ => "largest advance",
+                CycleObjective::Heat => "least heat per metre",
+                CycleObjective::Advance => "largest advance",
+                CycleObjective::Speed => "largest speed",
+                CycleObjective::Peak => "least torque demanded of a shoulder",
             },
             frontier.margin_mm
         ),

@@ -11,7 +11,7 @@ pub enum Objective {
         /// w, 1 each in the published study.
         weights: [f64; 4],
     },
-    /// The largest |τ| over the maker's effort limit of its joint.
+    /// The largest |τ| over the manufacturer's effort limit of its joint.
     Peak,
     /// ∫ Σ (τ/`τ_nominal`)² dt, s: what warms the motors.
     Heat,

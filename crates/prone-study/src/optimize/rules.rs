@@ -28,8 +28,8 @@ pub struct ChainRules {
 /// same first pose, which is 1e-5 rad in the ankle.
 const STOP_TOLERANCE: f64 = 2e-5;
 
-/// The maker's stops, widened to where a gait commands its joints: what gaits about it can keep. A
-/// regime may move stops so that no joint leans on them, but nothing is planned to go there.
+/// The manufacturer's stops, widened to where a gait commands its joints: what gaits about it can
+/// keep. A regime may move stops so that no joint leans on them, but nothing is planned to go there.
 ///
 /// A gait whose joints stay within the stops, or must, widens nothing. Where one is clamped, as the
 /// published ones are in the ankle, gaits about it may be: the same joints, no further, at any phase.

@@ -69,7 +69,7 @@ impl Command {
 /// Which robot it was.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 pub struct RecordedRobot {
-    /// The maker's name.
+    /// The manufacturer's name.
     pub name: String,
     /// Of which family it is a version; records of earlier builds do not say.
     #[serde(default)]

@@ -34,7 +34,7 @@ pub struct Card {
     pub time_s: f64,
     /// Distance over time, mm/s.
     pub speed_mm_s: f64,
-    /// How high the robot stands, mm, as its maker says.
+    /// How high the robot stands, mm, as its manufacturer says.
     pub standing_height_mm: Option<f64>,
     /// Speed over that height, 1/s.
     pub standing_heights_per_s: Option<f64>,
@@ -71,7 +71,7 @@ pub struct Card {
 /// One joint. Torque is actuator torque, after the effort limit.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct JointCard {
-    /// The maker's name.
+    /// The manufacturer's name.
     pub joint: String,
     /// Continuous torque of the motor at the joint, N·m.
     pub nominal_nm: f64,

@@ -120,8 +120,8 @@ const LINES: [Line; 15] = [
 fn figures(cards: &[Card]) -> Markup {
     html! {
         p {
-            "Ours, by simulation in the contact regime locomotion (engine's contacts, the maker's \
-             effort and joint limits on); every line is a figure of the crawl's record, or one over \
+            "Ours, by simulation in the contact regime locomotion (engine's contacts, the \
+             manufacturer's effort and joint limits on); every line is a figure of the crawl's record, or one over \
              another. No robot crawled them; the published one made 67 mm a cycle with the original's gait."
         }
         div.scroll { table {
@@ -130,7 +130,7 @@ fn figures(cards: &[Card]) -> Markup {
                  Lowest passage: highest point of any part in the whole run. Stride efficiency: advance \
                  of a pull, and of a whole cycle, over the stride of the planned chain. Cost of transport: positive work of \
                  the motors at the joints over weight times distance; electrical adds what the windings \
-                 lose, τ² ω₀ / τ_stall from the maker's motor figures, "
+                 lose, τ² ω₀ / τ_stall from the manufacturer's motor figures, "
                 strong { "an estimate" }
                 " and a lower bound: gears and drives lose nothing in it, and braking gives nothing back. Heat: \
                  Σ (τ / nominal torque)² over all motors, τ actuator torque; 1 is one motor at its \
@@ -165,8 +165,8 @@ fn joints(cards: &[Card]) -> Markup {
                 " Actuator torque after the effort limit, over the motor's continuous torque at the \
                  joint, lossless gears (real ones ask more of the motor): largest, and root mean square, whose square is the heat of \
                  a winding in units of its rating. Heat: share of all motors'. At the limit: share of the \
-                 time in which the servo asked for more than the maker's effort limit. Ours, simulated; \
-                 the warmest of the first crawl first; – is less than 1 % of the heat."
+                 time in which the servo asked for more than the manufacturer's effort limit. Ours, \
+                 simulated; the warmest of the first crawl first; – is less than 1 % of the heat."
             }
             thead {
                 tr {

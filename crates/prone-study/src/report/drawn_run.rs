@@ -7,6 +7,7 @@ use super::ReportError;
 use super::cut_table::Cut;
 use super::folder::Folder;
 use crate::cycle_search::frontier::Confirmed;
+use crate::cycle_search::price::CycleObjective;
 use crate::figure_list::FigureEntry;
 use crate::figures::{Figure, GenerationRecord, Scores, SearchRecord, generations};
 
@@ -80,13 +81,14 @@ impl DrawnRun {
 /// What the values of a search are, in which unit, and that unit in theirs; searches minimise, so that
 /// what is to be large is negative.
 fn quantity(folder: &Folder, objective: &str) -> Option<(&'static str, &'static str, f64)> {
-    Some(match objective {
-        "heat" if folder.said("/worst_over").is_some() => ("heat over another cycle's", "–", 1.0),
-        "heat" => ("heat per metre", "s/m", 1.0),
-        "advance" => ("advance per cycle", "mm", -1e3),
-        "speed" => ("speed", "mm/s", -1e3),
-        "peak" => ("torque demanded of a shoulder", "N·m", 1.0),
-        _ => return None,
+    Some(match CycleObjective::named(objective)? {
+        CycleObjective::Heat if folder.said("/worst_over").is_some() => {
+            ("heat over another cycle's", "–", 1.0)
+        }
+        CycleObjective::Heat => ("heat per metre", "s/m", 1.0),
+        CycleObjective::Advance => ("advance per cycle", "mm", -1e3),
+        CycleObjective::Speed => ("speed", "mm/s", -1e3),
+        CycleObjective::Peak => ("torque demanded of a shoulder", "N·m", 1.0),
     })
 }
 

@@ -66,7 +66,7 @@ impl Page<'_> {
                         @if let Some(replay) = &replay { (replay_section(replay)) }
                         (below)
                     }
-                    (footer())
+                    (self.footer())
                 }
             }
         };
@@ -256,16 +256,30 @@ impl Page<'_> {
             }
         }
     }
-}
 
-fn footer() -> Markup {
-    html! {
-        footer {
-            p {
-                "Written by prone " (env!("CARGO_PKG_VERSION")) " from records that it made; nothing was \
-                 simulated for this page. Text without a source is about the NAO."
+    fn footer(&self) -> Markup {
+        let robots = self.robots();
+        html! {
+            footer {
+                p {
+                    "Written by prone " (env!("CARGO_PKG_VERSION")) " from records that it made; nothing was \
+                     simulated for this page."
+                    @if !robots.is_empty() {
+                        " Text without a source is about " (robots.join(" and ")) "."
+                    }
+                }
             }
         }
+    }
+
+    /// Names of the robots of the records, each once.
+    fn robots(&self) -> Vec<String> {
+        let mut robots = Vec::new();
+        for run in self.runs {
+            let robot = run.folder().said("/robot/name");
+            robots.extend(robot.filter(|robot| !robots.contains(robot)));
+        }
+        robots
     }
 }
 

@@ -259,7 +259,7 @@ pub(super) fn table_crawl(summary: &Summary) -> Markup {
             p {
                 "Pull, recovery, pull: the cycle " (first.ours.gait) " with the published poses, in \
                  the scene " (first.ours.scene) ", contact regime locomotion (friction 0.7, the \
-                 maker's effort and joint limits on). Published: " (first.published_obtained)
+                 manufacturer's effort and joint limits on). Published: " (first.published_obtained)
                 ". Ours: " (first.ours_obtained) ". Of the table only the height of its panels, \
                  200 mm, is published; the other sizes are assumed. Our feet meet the panel and are \
                  wedged against it for a while, which costs distance, heat and torque: our way back \
@@ -360,7 +360,7 @@ pub(super) fn differences() -> Markup {
             ul {
                 li { "The published upper arm of the optimal gait is printed with the wrong sign at the start (+0.52360); only the negative value reaches −90°." }
                 li { "The published coefficients end 0.06° short of −90°: the optimiser's tolerance was used up. Ours follow the coefficients." }
-                li { "The recording simulator used another engine, a mass of 5.14 kg, and a hip stop of 0.4327 rad, below the 0.480 rad that the gait commands; here the maker's 5.305 kg, and a hip stop moved out of the way." }
+                li { "The recording simulator used another engine, a mass of 5.14 kg, and a hip stop of 0.4327 rad, below the 0.480 rad that the gait commands; here the manufacturer's 5.305 kg, and a hip stop moved out of the way." }
                 li { "How hard toes and elbows squeeze the body between them decides every torque and depends on the friction model. The recordings had practically no squeeze, which friction of 0.05 gives; with contacts that stick the curves differ several times more." }
                 li { "The pose of the recorded robot before each pull is unknown; ours is the pose stored in its scene, held for a second. It decides the first fifth of the phase and the cost of short pulls." }
                 li { "Towards the end of the pull the hands take over from the elbows: the hand is thicker than the elbow, and its roll stops short of flat. Our shoulder torque then rises in the last twentieth of the phase; the recorded one does not." }

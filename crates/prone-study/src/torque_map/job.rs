@@ -136,15 +136,15 @@ impl<'r> Job<'r> {
         let [theta3, theta4, alpha, step] = self.grid.bounds().map(|bound| bound.1);
         let robot = &self.robot.robot().name;
         let files = self.robot.files();
-        let member = files.member.as_ref().map_or_else(String::new, |member| {
-            format!(" (version {} of {})", member.version, member.family)
+        let version_of_family = files.version.as_ref().map_or_else(String::new, |version| {
+            format!(" (version {} of {})", version.version, version.family)
         });
         vec![
             format!("torque map by prone {version}, commit {commit}"),
             format!("source: {}: {}", self.source.name(), self.still()),
             format!("regime: {}", self.source.regime()),
             format!("mapping: {}; arms: {}", VARIANT.name(), ARM.name()),
-            format!("robot: {robot}, sha256 {}{member}", files.hash()),
+            format!("robot: {robot}, sha256 {}{version_of_family}", files.hash()),
             format!("engine: {}", prone_sim::engine_version()),
             format!("grid: theta3 {theta3}, theta4 {theta4}, alpha {alpha}, step {step}"),
             format!("rows: {knees} x {hips} x {arms} = {}", grid.len()),

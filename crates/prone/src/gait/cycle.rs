@@ -27,7 +27,7 @@ use std::collections::BTreeMap;
 
 use super::{Curve, Gait, PhaseDuration};
 
-/// A crawl cycle. Joints carry the maker's names; of a left and a right twin one is enough.
+/// A crawl cycle. Joints carry the manufacturer's names; of a left and a right twin one is enough.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cycle {
     /// The closed chain; its name and description are the cycle's.

@@ -1,3 +1,4 @@
+use prone::robot::BodyPart;
 use prone_files::shipped;
 use prone_sim::RobotFiles;
 
@@ -107,7 +108,7 @@ fn a_cycle_holds_where_it_is_low_far_and_straight() {
         setting: SettingKind::AsItIs,
         advance: 0.1,
         seconds: 4.0,
-        top: (0.17, "head"),
+        top: (0.17, BodyPart::Head),
         heat_per_metre: 50.0,
         peak_over_limit: (1.0, String::new()),
         demanded_shoulder: 2.0,

@@ -1,3 +1,4 @@
+use prone::robot::BodyPart;
 use prone_files::shipped;
 use prone_sim::{LoadedRobot, RobotFiles};
 
@@ -9,7 +10,7 @@ fn warm(heat_per_metre: f64) -> Trial {
         setting: SettingKind::AsItIs,
         advance: 0.1,
         seconds: 2.0,
-        top: (0.2, "head"),
+        top: (0.2, BodyPart::Head),
         heat_per_metre,
         peak_over_limit: (1.0, String::new()),
         demanded_shoulder: heat_per_metre,
@@ -296,4 +297,14 @@ fn limit_what_cannot_be_compared_is_refused() {
         refused(unknown, heat),
         "no joint of NAO H25 V4 has a motor in robot.toml, without which there is no heat"
     );
+}
+
+#[test]
+fn an_objective_is_written_and_read_under_its_name() {
+    for objective in CycleObjective::ALL {
+        let name = objective.name();
+        assert_eq!(serde_json::to_value(objective).unwrap(), name);
+        assert_eq!(CycleObjective::named(name), Some(objective));
+    }
+    assert_eq!(CycleObjective::named("torque"), None);
 }

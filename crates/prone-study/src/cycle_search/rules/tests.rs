@@ -1,3 +1,5 @@
+use prone::robot::BodyPart;
+
 use super::super::setting::SettingKind;
 use super::*;
 
@@ -26,7 +28,7 @@ fn on_the_limit() -> Trial {
         setting: SettingKind::AsItIs,
         advance: RULES.advance,
         seconds: 4.0,
-        top: (RULES.ceiling, "head"),
+        top: (RULES.ceiling, BodyPart::Head),
         heat_per_metre: RULES.heat,
         peak_over_limit: (1.0, String::new()),
         demanded_shoulder: RULES.demanded_shoulder,
@@ -52,7 +54,7 @@ fn what_is_on_its_limit_breaks_nothing() {
     near(RULES.broken_by_heat(RULES.heat), 0.0);
     let beyond = Trial {
         advance: 2.0 * RULES.advance,
-        top: (0.5 * RULES.ceiling, "head"),
+        top: (0.5 * RULES.ceiling, BodyPart::Head),
         demanded_shoulder: 0.5 * RULES.demanded_shoulder,
         body_share: 0.5 * RULES.body_share,
         ..on_the_limit()
@@ -87,7 +89,7 @@ fn nothing_may_be_higher_than_the_ceiling() {
     for role in [Role::Value, Role::Keep(0.5)] {
         holds(RULES.ceiling, Side::Below, 0.1, |top| {
             let trial = Trial {
-                top: (top, "head"),
+                top: (top, BodyPart::Head),
                 ..on_the_limit()
             };
             broken(role, &trial)
@@ -199,7 +201,7 @@ fn a_shoulders_own_servo_may_not_demand_more() {
 fn nothing_is_asked_of_what_stands_beside() {
     let bad = Trial {
         advance: -1.0,
-        top: (9.0, "head"),
+        top: (9.0, BodyPart::Head),
         demanded_shoulder: f64::NAN,
         body_share: 1.0,
         yaw: 3.0,
@@ -212,7 +214,7 @@ fn nothing_is_asked_of_what_stands_beside() {
 fn what_breaks_several_rules_breaks_their_sum() {
     let trial = Trial {
         advance: 0.9 * RULES.advance,
-        top: (1.2 * RULES.ceiling, "head"),
+        top: (1.2 * RULES.ceiling, BodyPart::Head),
         demanded_shoulder: 1.3 * RULES.demanded_shoulder,
         body_share: RULES.body_share + 0.4,
         ..on_the_limit()

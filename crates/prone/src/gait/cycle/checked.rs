@@ -33,11 +33,11 @@ pub(super) struct Stretch {
 /// The joint that comes nearest to its speed limit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FastestJoint {
-    /// The maker's name.
+    /// The manufacturer's name.
     pub joint: String,
     /// Its largest commanded speed, rad/s.
     pub speed: f64,
-    /// The maker's limit, rad/s.
+    /// The manufacturer's limit, rad/s.
     pub limit: f64,
 }
 

@@ -93,7 +93,7 @@ pub enum CycleError {
         joint: String,
         /// The largest speed, rad/s.
         speed: f64,
-        /// The maker's limit, rad/s.
+        /// The manufacturer's limit, rad/s.
         limit: f64,
     },
     /// The pull before it was planned for another robot.
