@@ -32,7 +32,8 @@ pub(crate) fn find(gaits: &Gaits, name: &str) -> Result<Gait, Failure> {
         Some(gait) => gait,
         None => in_file(name)?.ok_or_else(|| {
             let shipped = listed(shipped::gait_names());
-            unknown("gait", name, gaits, gaits.own_pulls(), &shipped)
+            let own = gaits.own_pulls().map(|own| own.join(", "));
+            unknown("gait", name, gaits, own, &shipped)
         })?,
     };
     gait_file::parse(&gait.file, &gait.text).map_err(Failure::input)
@@ -52,7 +53,8 @@ pub(crate) fn find_cycle(gaits: &Gaits, name: &str) -> Result<GaitSource, Failur
         }
         None => in_file(name)?.ok_or_else(|| {
             let shipped = listed(shipped::cycle_names());
-            unknown("cycle", name, gaits, gaits.own_cycles(), &shipped)
+            let own = gaits.own_cycles().map(|own| own.join(", "));
+            unknown("cycle", name, gaits, own, &shipped)
         })?,
     };
     Ok(GaitSource {
@@ -76,13 +78,13 @@ fn unknown(
     noun: &str,
     name: &str,
     gaits: &Gaits,
-    own: Result<Vec<String>, ReadError>,
+    own: Result<String, ReadError>,
     shipped: &str,
 ) -> Failure {
     let own = match (gaits, own) {
         (_, Err(error)) => return Failure::input(error),
         (Gaits::Folder(folder), Ok(own)) if !own.is_empty() => {
-            format!("in {} ({}), nor ", folder.display(), own.join(", "))
+            format!("in {} ({own}), nor ", folder.display())
         }
         (_, Ok(_)) => String::new(),
     };
@@ -99,14 +101,23 @@ fn listed(names: impl Iterator<Item = &'static str>) -> String {
 fn unknown_to_all(name: &str, gaits: &Gaits) -> Failure {
     let own = gaits.own_pulls().and_then(|pulls| {
         let cycles = gaits.own_cycles()?;
-        Ok([pulls, cycles].concat())
+        Ok(by_kind(&pulls.join(", "), &cycles.join(", ")))
     });
     let (pulls, cycles) = (
         listed(shipped::gait_names()),
         listed(shipped::cycle_names()),
     );
-    let shipped = format!("pulls: {pulls}; cycles: {cycles}");
-    unknown("gait", name, gaits, own, &shipped)
+    unknown("gait", name, gaits, own, &by_kind(&pulls, &cycles))
+}
+
+/// Names of pulls and cycles in a sentence, without a kind of which there are none.
+fn by_kind(pulls: &str, cycles: &str) -> String {
+    let kinds = [("pulls", pulls), ("cycles", cycles)];
+    let kinds = kinds.into_iter().filter(|(_, names)| !names.is_empty());
+    let kinds: Vec<String> = kinds
+        .map(|(kind, names)| format!("{kind}: {names}"))
+        .collect();
+    kinds.join("; ")
 }
 
 /// Whether a cycle is one that ships with prone, and not a user's.

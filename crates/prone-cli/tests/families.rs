@@ -93,8 +93,10 @@ fn a_robot_s_own_gaits_go_before_those_that_ship() {
 
     let unknown = refused(&["gait", "show", "gallop", "--robot", &robot]);
     assert!(
-        unknown
-            .contains("/toddler/gaits (nominal), nor one that ships with prone (nominal, optimal,"),
+        unknown.contains(
+            "/toddler/gaits (pulls: nominal; cycles: low-165, ours), nor one that ships with prone \
+             (pulls: nominal, optimal,"
+        ),
         "{unknown}"
     );
     let cycle = ["crawl", "run", "--gait", "gallop", "--robot", &robot];
