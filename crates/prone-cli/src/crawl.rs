@@ -14,8 +14,8 @@ use prone_sim::World;
 use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, Detail};
 use prone_study::crawl::record::{self, Recording};
 use prone_study::crawl::{CrawlSummary, summary};
-use prone_study::output;
-use prone_study::run_info::Program;
+use prone_record::output;
+use RUNINFO::Program;
 
 use crate::args::{CrawlCommand, CrawlRunArgs};
 use crate::lock::Lock;

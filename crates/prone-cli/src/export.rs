@@ -11,9 +11,10 @@ use anyhow::anyhow;
 
 use prone::gait::cycle::{CheckedCycle, TimeScale};
 use prone_files::cycle_file;
-use prone_sim::{Regime, World};
+use prone_sim::World;
+use prone::regime::Regime;
 use prone_study::export::{key_frames, numpy, ros_log, table, timeline, urdf};
-use prone_study::recorded::{Command, Recorded, RecordedRun};
+use prone_record::recorded::{Command, Recorded, RecordedRun};
 
 use crate::args::{ExportArgs, Format};
 use crate::{Failure, interrupt, record_folder, table_file};

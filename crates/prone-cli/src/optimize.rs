@@ -11,13 +11,14 @@ use anyhow::anyhow;
 use serde_json::{Value, json};
 
 use prone::gait::Gait;
-use prone_sim::{Regime, World};
+use prone_sim::World;
+use prone::regime::Regime;
 use prone_study::optimize::confirm::{self, ConfirmError, ConfirmPlan, Confirmation};
 use prone_study::optimize::form::{Ends, GaitForm, Parametrisation};
 use prone_study::optimize::outcome::{self, Hunt};
 use prone_study::optimize::pricer::{self, Aim};
-use prone_study::optimize::search::{Search, SearchEnd, Solver};
-use prone_study::output;
+use prone_record::search::{Search, SearchEnd, Solver};
+use prone_record::output;
 
 use self::files::pretty;
 use crate::args::optimize::{EndsName, OptimizeArgs, SolverName};

@@ -13,7 +13,7 @@ use prone_study::cycle_search::passage::{Passage, Tried};
 use prone_study::cycle_search::price::{Aim, CycleObjective, Merge};
 use prone_study::cycle_search::setting::Setting;
 use prone_study::cycle_search::settings;
-use prone_study::optimize::search::{Search, SearchEnd};
+use prone_record::search::{Search, SearchEnd};
 
 use crate::args::passage::UnderArgs;
 use crate::gait::{find_cycle, is_shipped};

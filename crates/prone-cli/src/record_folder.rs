@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 
-use prone_study::output;
+use prone_record::output;
 
 use crate::Failure;
 

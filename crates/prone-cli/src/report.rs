@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 
-use prone_study::output;
-use prone_study::report::{PAGE_FILE, Report, ReportError, Source};
-use prone_study::run_info::Program;
+use prone_record::output;
+use prone_report::report::{PAGE_FILE, Report, ReportError, Source};
+use RUNINFO::Program;
 
 use crate::args::ReportArgs;
 use crate::{Failure, interrupt, record_folder, table_file};

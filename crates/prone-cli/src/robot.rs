@@ -11,7 +11,8 @@ use serde_json::{Value, json};
 
 use prone_files::compiled_robot::CompiledRobotError;
 use prone_files::shipped;
-use prone_sim::{LoadedRobot, Regime, RobotFiles, World};
+use prone_sim::{LoadedRobot, RobotFiles, World};
+use prone::regime::Regime;
 use prone_study::robot_sheet::{self, ChainSheet, RobotSheet};
 
 use crate::Failure;

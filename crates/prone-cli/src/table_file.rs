@@ -5,7 +5,7 @@ use std::io::{self, Write as _};
 use std::os::unix::fs::{MetadataExt as _, PermissionsExt as _};
 use std::path::{Path, PathBuf};
 
-use prone_study::output;
+use prone_record::output;
 
 /// Mode of a new file, before the user's mask.
 const NEW_FILE: u32 = 0o666;

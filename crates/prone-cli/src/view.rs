@@ -8,8 +8,8 @@ use std::process::{Command, Stdio};
 
 use anyhow::anyhow;
 
-use prone_study::recorded;
-use prone_study::view::{self, record};
+use prone_record::recorded;
+use prone_report::view::{self, record};
 
 use crate::args::ViewArgs;
 use crate::{Failure, interrupt, record_folder, table_file};

@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 
 use tempfile::TempDir;
 
-use prone_study::recorded::{Command, Recorded};
+use prone_record::recorded::{Command, Recorded};
 
 use folder::files;
 use program::prone;

@@ -8,8 +8,9 @@ use std::f64::consts::FRAC_PI_2;
 use std::sync::OnceLock;
 
 use prone_files::shipped;
-use prone_sim::regime::CONTROL_STEP;
-use prone_sim::{LoadedRobot, Placement, Regime, RobotFiles, Simulation, World};
+use prone::regime::CONTROL_STEP;
+use prone_sim::{LoadedRobot, Placement, RobotFiles, Simulation, World};
+use prone::regime::Regime;
 
 fn main() {
     divan::main();

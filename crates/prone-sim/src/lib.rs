@@ -1,7 +1,7 @@
 //! Crawling robots in the `MuJoCo` engine.
 //!
 //! [`LoadedRobot`] turns a robot's two files into [`prone::robot::Robot`]; a [`World`] puts it on a floor
-//! or into a scene under a named contact [`regime`]; a [`Simulation`] steps it with the servo law of the published
+//! or into a scene under a named contact regime ([`prone::regime`]); a [`Simulation`] steps it with the servo law of the published
 //! study; [`pull`] runs one closed-chain phase and records it, [`crawl`] whole cycles; [`driven`]
 //! makes a simulation something that can be driven, through [`prone::port`]; [`camera`] takes
 //! pictures on the CPU. [`imu`] is what the robot feels of its attitude; [`self_collision`]
@@ -18,7 +18,6 @@ pub mod imu;
 mod load;
 mod model_view;
 pub mod pull;
-pub mod regime;
 pub mod self_collision;
 pub mod settled;
 mod simulation;
@@ -26,7 +25,6 @@ mod world;
 
 pub use load::{LoadError, LoadedRobot, ModelProblem, RobotFiles};
 pub use model_view::{InertiaView, ShapeView};
-pub use regime::Regime;
 pub use simulation::{
     ContactForce, ObstacleContact, Placement, Simulation, SimulationError, Snapshot, StepMeans,
 };

@@ -14,7 +14,7 @@ use prone::gait::{CheckedTrajectory, Gait, PhaseDuration, TrajectoryError};
 use prone::mapping::Mapping;
 use prone::robot::{BodyPart, JointAngles, Tops};
 
-use crate::regime::CONTROL_STEP;
+use prone::regime::CONTROL_STEP;
 use crate::simulation::{ContactForce, Placement, Simulation, SimulationError, Snapshot};
 use crate::world::World;
 

@@ -13,7 +13,7 @@ use prone::mapping::{Mapping, MappingError};
 use prone::robot::JointAngles;
 use prone::torque_map::{JointTorques, TorqueGap, TorqueSource};
 
-use crate::regime::CONTROL_STEP;
+use prone::regime::CONTROL_STEP;
 use crate::simulation::{Placement, Simulation, SimulationError, StepMeans};
 use crate::world::World;
 

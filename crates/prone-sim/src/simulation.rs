@@ -8,7 +8,7 @@ use mujoco_rs::prelude::*;
 use prone::frames::{Ground, Link, Point, Root, Transform};
 use prone::robot::{BodyPoses, ContactGroup, JointAngles, Robot};
 
-use crate::regime::CONTROL_STEP;
+use prone::regime::CONTROL_STEP;
 use crate::world::World;
 
 mod contacts;

@@ -15,7 +15,7 @@ use prone::statics::GRAVITY;
 
 use crate::engine_log;
 use crate::load::LoadedRobot;
-use crate::regime::{self, Effort, Regime, Stops};
+use prone::regime::{self, Effort, Regime, Stops};
 use scenery::Scenery;
 
 /// Rolling and torsional friction, m: the engine's defaults. Contacts are three-dimensional

@@ -6,7 +6,8 @@ use std::f64::consts::FRAC_PI_2;
 
 use changed::{SAME, changed};
 use prone_files::shipped::NAO;
-use prone_sim::{LoadedRobot, Placement, Regime, RobotFiles, Simulation, StepMeans, World};
+use prone_sim::{LoadedRobot, Placement, RobotFiles, Simulation, StepMeans, World};
+use prone::regime::Regime;
 
 fn nao() -> LoadedRobot {
     LoadedRobot::load(changed(SAME, SAME)).unwrap()

@@ -10,7 +10,8 @@ use prone::mapping::{ArmMode, Mapping, MappingVariant, SideGeometry};
 use prone::robot::{ContactGroup, Robot, Solid};
 use prone_files::shipped;
 use prone_sim::pull::{self, Keep, Start};
-use prone_sim::{LoadedRobot, Placement, Regime, RobotFiles, Simulation, World};
+use prone_sim::{LoadedRobot, Placement, RobotFiles, Simulation, World};
+use prone::regime::Regime;
 
 fn nao() -> LoadedRobot {
     LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap()

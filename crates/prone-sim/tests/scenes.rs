@@ -7,7 +7,8 @@ use glam::DVec3;
 use prone::frames::Point;
 use prone::scene::{Marker, Panel, Ramp, Roughness, Scene, SideFriction};
 use prone_files::shipped;
-use prone_sim::{LoadedRobot, Placement, Regime, RobotFiles, Simulation, World, WorldError};
+use prone_sim::{LoadedRobot, Placement, RobotFiles, Simulation, World, WorldError};
+use prone::regime::Regime;
 
 fn nao() -> LoadedRobot {
     LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap()

@@ -15,7 +15,8 @@ use prone::statics::{self, HalfRobot, Stance, StaticTorques, SupportRule, virtua
 use prone::torque_map::{self, Axis, Grid, Row, TorqueMap, TorqueSource};
 use prone_files::shipped;
 use prone_sim::settled::SettledTorques;
-use prone_sim::{LoadedRobot, Regime, RobotFiles, World};
+use prone_sim::{LoadedRobot, RobotFiles, World};
+use prone::regime::Regime;
 
 /// Our torques of one side and theirs, N·m.
 type Pair = ([f64; 4], [f64; 4]);

@@ -4,7 +4,8 @@ use prone::robot::{BodyId, JointAngles, JointId, Robot};
 use prone::statics::GRAVITY;
 use prone_files::shipped;
 use prone_sim::crawl::{JointEffort, MotorStep};
-use prone_sim::{LoadedRobot, Placement, Regime, RobotFiles, Simulation, World};
+use prone_sim::{LoadedRobot, Placement, RobotFiles, Simulation, World};
+use prone::regime::Regime;
 
 /// Shoulder pitch of arms that point obliquely towards the feet, rad.
 const LOW: f64 = 1.2;

@@ -1,24 +1,12 @@
-//! A record in formats that other tools open.
+//! What only the engine can export of a record: films, and the robot as URDF.
 //!
 //! | module | format | read by |
 //! |---|---|---|
-//! | [`table`] | CSV, one line per joint and instant | data frames, plots |
-//! | [`ros_log`] | MCAP with the messages of ROS 2 | Foxglove, Rerun, `PlotJuggler` |
-//! | [`numpy`] | `.npz` | `NumPy` |
 //! | [`urdf`] | the robot as URDF | ROS, physics engines |
-//! | [`key_frames`] | one cycle as JSON | reinforcement learning |
-//! | [`timeline`] | one cycle as a Choregraphe project | Choregraphe |
 //! | [`film`] with [`gif_film`], [`webp_film`] | pictures that move | browsers |
-//!
-//! Names carry their unit in every format that has room for it; docs/export.md lists them.
 
 pub mod film;
 pub mod gif_film;
-pub mod key_frames;
 mod moved;
-pub mod numpy;
-pub mod ros_log;
-pub mod table;
-pub mod timeline;
 pub mod urdf;
 pub mod webp_film;

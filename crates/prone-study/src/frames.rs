@@ -8,8 +8,8 @@ use rayon::prelude::*;
 use prone_sim::camera::{self, Camera, Picture, PictureError};
 use prone_sim::{Snapshot, World};
 
-use crate::figures::{Figure, FigureError, raster};
-use crate::published;
+use prone_report::figures::{Figure, FigureError, raster};
+use prone_thesis::published;
 
 /// Size of one frame, pixels.
 const FRAME: (usize, usize) = (800, 300);

@@ -1,12 +1,13 @@
 //! A gait on one robot, as a table: chain, joints, limits, heights. No physics.
 
 use glam::{DQuat, DVec3};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use prone::chain::ChainAngles;
 use prone::frames::{Ground, Root, Transform};
 use prone::gait::{CheckedTrajectory, Gait, PhaseDuration, Sample, TrajectoryError};
 use prone::mapping::Mapping;
+use prone_record::crawl_summary::SheetClamp;
 use prone::robot::{BodyPoses, ContactGroup, JointAngles, JointId, Robot, Shape};
 
 /// Samples of a sheet: 1 % of the phase apart.
@@ -63,21 +64,6 @@ pub struct SheetRow {
     pub top_mm: f64,
     /// Lowest point of trunk, head and legs, mm.
     pub body_bottom_mm: f64,
-}
-
-/// A joint stopped at its limit.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct SheetClamp {
-    /// The manufacturer's name of the joint.
-    pub joint: String,
-    /// In how many of the samples.
-    pub samples: usize,
-    /// First of them, percent of the phase.
-    pub from_percent: f64,
-    /// Last of them, percent of the phase.
-    pub to_percent: f64,
-    /// Largest amount cut off, degrees, negative at the lower limit.
-    pub largest_deg: f64,
 }
 
 /// Plans a gait within the manufacturer's limits.

@@ -5,8 +5,9 @@
 //! newton metre between durations). Below 3 s the unknown start pose decides.
 
 use prone_files::shipped;
-use prone_sim::{LoadedRobot, Regime, RobotFiles, World};
-use prone_study::torque_study::{self, Observer, Plan, TorqueStudy};
+use prone_sim::{LoadedRobot, RobotFiles, World};
+use prone::regime::Regime;
+use prone_thesis::torque_study::{self, Observer, Plan, TorqueStudy};
 use prone_study::{agreement, published, summary};
 
 /// Watches nothing and never stops.

@@ -5,6 +5,7 @@
 //! them in that order of importance.
 
 pub mod graded;
+pub mod objective;
 pub mod published;
 
 /// Integral over time of the sum of squared torques, N²·m²·s, by the trapezoid rule.

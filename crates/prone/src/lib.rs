@@ -22,6 +22,7 @@ pub mod frames;
 pub mod gait;
 pub mod mapping;
 pub mod port;
+pub mod regime;
 pub mod robot;
 pub mod scene;
 pub mod statics;

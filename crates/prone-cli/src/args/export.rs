@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
-use prone_study::recorded::Part;
+use prone_record::recorded::Part;
 
 /// Smallest and largest edge of a picture, pixels.
 const EDGE: std::ops::RangeInclusive<usize> = 16..=4096;

@@ -9,8 +9,9 @@ use prone::scene::{Obstacle, Quantity, Scene, SceneError, SideFriction};
 use prone::steering::{HeadingHold, TurnTo};
 use prone_files::{scene_file, shipped, text_file};
 use prone_sim::crawl::{CrawlError, End, LimbsError, check_limbs};
-use prone_sim::regime::Servo;
-use prone_sim::{LoadedRobot, Regime, World};
+use prone::regime::Servo;
+use prone_sim::{LoadedRobot, World};
+use prone::regime::Regime;
 use prone_study::crawl::{Conditions, GaitSource, PastObstacles};
 use prone_study::cycle_search::settings::offsets;
 

@@ -3,10 +3,10 @@
 use prone::gait::cycle::Cycle;
 use prone_files::cycle_file;
 use prone_study::cycle_search::record::{self, Found, Frontier};
-use prone_study::figure_list::FigureList;
-use prone_study::figures::{PNG_SCALE, frontier_figure};
-use prone_study::optimize::search::Search;
-use prone_study::output::Artefacts;
+use prone_report::figure_list::FigureList;
+use prone_report::figures::{PNG_SCALE, frontier_figure};
+use prone_record::search::Search;
+use prone_record::output::Artefacts;
 
 use super::Quest;
 use crate::Failure;

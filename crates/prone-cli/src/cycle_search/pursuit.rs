@@ -8,12 +8,12 @@ use anyhow::anyhow;
 use serde_json::json;
 
 use prone::gait::cycle::Cycle;
-use prone_sim::Regime;
+use prone::regime::Regime;
 use prone_study::cycle_search::frontier;
 use prone_study::cycle_search::record::{Compared, Found, Frontier};
 use prone_study::cycle_search::setting::SettingKind;
-use prone_study::optimize::search::{Search, SearchEnd};
-use prone_study::output;
+use prone_record::search::{Search, SearchEnd};
+use prone_record::output;
 
 use super::files::{self, pretty};
 use super::{Job, Quest};

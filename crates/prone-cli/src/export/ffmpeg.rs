@@ -14,7 +14,7 @@ use tempfile::NamedTempFile;
 
 use prone_sim::camera::Picture;
 use prone_study::export::film::{Reel, Shot};
-use prone_study::output::without_hidden_name;
+use prone_record::output::without_hidden_name;
 
 use crate::Failure;
 

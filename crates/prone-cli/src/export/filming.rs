@@ -7,7 +7,7 @@ use anyhow::anyhow;
 use prone_study::export::film::{Film, Interrupted, Shot, View};
 use prone_study::export::gif_film::{self, GifReel};
 use prone_study::export::webp_film::WebpReel;
-use prone_study::recorded::Recorded;
+use prone_record::recorded::Recorded;
 
 use super::ffmpeg::Ffmpeg;
 use super::{cannot_write, origin};

@@ -6,8 +6,9 @@ use anyhow::anyhow;
 
 use prone::scene::Scene;
 use prone_files::{scene_file, shipped};
-use prone_sim::{LoadedRobot, Regime, RobotFiles, World};
-use prone_study::recorded::{Recorded, RecordedRun};
+use prone_sim::{LoadedRobot, RobotFiles, World};
+use prone::regime::Regime;
+use prone_record::recorded::{Recorded, RecordedRun};
 
 use crate::Failure;
 use crate::args::ExportArgs;

@@ -2,15 +2,15 @@
 
 use prone::gait::{CheckedTrajectory, Gait};
 use prone_files::gait_file;
-use prone_study::figure_list::FigureList;
-use prone_study::figures::{self, ConfirmedRecord, PNG_SCALE, Scores, SearchRecord};
+use prone_report::figure_list::FigureList;
+use prone_report::figures::{self, ConfirmedRecord, PNG_SCALE, Scores, SearchRecord};
 use prone_study::optimize::confirm::{self, Confirmation};
 use prone_study::optimize::outcome::{self, Outcome};
 use prone_study::optimize::pricer::Aim;
 use prone_study::optimize::rules::INTERVALS;
-use prone_study::optimize::search::Search;
-use prone_study::output::Artefacts;
-use prone_study::record::ChainRecord;
+use prone_record::search::Search;
+use prone_record::output::Artefacts;
+use prone_record::pulls::ChainRecord;
 use prone_study::{tables, torque_study};
 
 use super::report::sentence;

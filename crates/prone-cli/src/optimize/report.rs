@@ -2,7 +2,7 @@
 
 use std::io::Write as _;
 
-use prone_sim::Regime;
+use prone::regime::Regime;
 use prone_study::optimize::confirm::{self, Confirmation};
 use prone_study::optimize::outcome::Outcome;
 

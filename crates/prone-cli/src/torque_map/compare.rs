@@ -113,7 +113,7 @@ fn print_worst(worst: &[WorstRow], out: &mut impl std::io::Write) -> std::io::Re
 
 /// Torque of the joint that the row is listed for.
 fn torque(row: &WorstRow, torques: [f64; 4]) -> f64 {
-    let mut joints = prone_study::record::JOINTS.into_iter().zip(torques);
+    let mut joints = prone_record::pulls::JOINTS.into_iter().zip(torques);
     joints
         .find(|(joint, _)| *joint == row.joint)
         .map_or(f64::NAN, |(_, torque)| torque)

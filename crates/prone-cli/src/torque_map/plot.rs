@@ -5,8 +5,8 @@ use std::io::Write as _;
 use anyhow::anyhow;
 
 use prone::torque_map::{comments, parse};
-use prone_study::figure_list::FIGURES_FILE;
-use prone_study::output;
+use prone_report::figure_list::FIGURES_FILE;
+use prone_record::output;
 use prone_study::torque_map::plot::{self, MapFile};
 
 use crate::args::PlotArgs;

@@ -6,7 +6,7 @@ use prone_files::shipped;
 
 use super::*;
 use crate::load::{LoadedRobot, RobotFiles};
-use crate::regime::Regime;
+use prone::regime::Regime;
 
 fn nao() -> LoadedRobot {
     LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap()

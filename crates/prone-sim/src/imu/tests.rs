@@ -9,7 +9,7 @@ use prone_files::shipped;
 
 use super::*;
 use crate::pull::{self, Start};
-use crate::regime::TIME_STEP;
+use prone::regime::TIME_STEP;
 use crate::{LoadedRobot, Placement, Regime, RobotFiles};
 
 /// The shipped robot in a world whose floor rises by `slope`, rad, in the direction of travel: seen

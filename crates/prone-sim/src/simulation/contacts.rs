@@ -19,20 +19,6 @@ pub struct ObstacleContact {
     pub normal: f64,
 }
 
-/// What the world does to the robot in one place.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ContactForce {
-    /// The part of the robot.
-    pub body: BodyId,
-    /// The obstacle's place in [`prone::scene::Scene::obstacles`]; `None` for floor and rough
-    /// ground.
-    pub obstacle: Option<usize>,
-    /// Where.
-    pub at: Point<Ground>,
-    /// Force on the robot in the ground frame, N.
-    pub force: DVec3,
-}
-
 /// A contact of the robot with anything else.
 pub(super) struct Contact<'s> {
     pub(super) body: BodyId,

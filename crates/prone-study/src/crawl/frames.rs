@@ -249,7 +249,8 @@ mod tests {
     use prone::gait::cycle::TimeScale;
     use prone_files::shipped;
     use prone_sim::crawl::{self, CrawlPlan, Detail, End};
-    use prone_sim::{LoadedRobot, Regime, RobotFiles};
+    use prone_sim::{LoadedRobot, RobotFiles};
+use prone::regime::Regime;
 
     use super::*;
 

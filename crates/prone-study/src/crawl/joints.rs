@@ -1,36 +1,8 @@
 //! What each motor did in a crawl, beside what its manufacturer says it can.
 
-use serde::{Deserialize, Serialize};
-
 use prone::robot::Robot;
+use prone_record::crawl_summary::JointSummary;
 use prone_sim::crawl::Effort;
-
-/// One joint over a whole crawl. Torque is **actuator torque**, after the effort limit, unless it
-/// says demanded.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct JointSummary {
-    /// The manufacturer's name.
-    pub joint: String,
-    /// The manufacturer's effort limit, N·m.
-    pub effort_limit_nm: f64,
-    /// Continuous torque of the motor at the joint, before gear losses, N·m, where it is known.
-    pub nominal_nm: Option<f64>,
-    /// Largest |τ|, N·m.
-    pub peak_nm: f64,
-    /// √(∫ τ² dt / time), N·m.
-    pub rms_nm: f64,
-    /// Largest |τ| that the servo demanded, N·m.
-    pub demanded_peak_nm: f64,
-    /// Share of the time in which the servo demanded more than the effort limit.
-    pub saturated_share: f64,
-    /// ∫ (τ / nominal torque)² dt, s; nothing where the motor is not known.
-    pub heat_s: Option<f64>,
-    /// ∫ max(τω, 0) dt, J.
-    pub work_j: f64,
-    /// What the winding lost, J ([`prone::robot::Motor::winding_loss`]): an estimate; nothing where
-    /// the motor's speed without load is not known.
-    pub winding_loss_j: Option<f64>,
-}
 
 /// In the order of the robot's joints.
 pub(super) fn of(robot: &Robot, effort: &Effort) -> Vec<JointSummary> {

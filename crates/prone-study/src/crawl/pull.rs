@@ -5,15 +5,15 @@ use serde::Serialize;
 use prone::gait::Gait;
 use prone::steering::Bearing;
 use prone_sim::pull::Pull;
-use prone_sim::regime::CONTROL_STEP;
+use prone::regime::CONTROL_STEP;
 use prone_sim::{LoadedRobot, World};
 
 use super::record::{RecordError, shown};
 use super::run::{RecordInfo, Subject};
 use super::tables::Instant;
-use crate::output::Artefacts;
-use crate::recorded::{Command, Extent};
-use crate::run_info::Program;
+use prone_record::output::Artefacts;
+use prone_record::recorded::{Command, Extent};
+use RUNINFO::Program;
 
 /// A pull of the published study.
 pub(crate) struct PullRecording<'a> {

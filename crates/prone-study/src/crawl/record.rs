@@ -9,12 +9,12 @@ use super::run::{Conditions, GaitSource, RecordInfo, Subject};
 use super::summary::CrawlSummary;
 use super::tables::Instant;
 use super::{frames, model, tables};
-use crate::figure_list::FigureList;
-use crate::figures::{self, AngleRecord, FigureError, PNG_SCALE};
+use prone_report::figure_list::FigureList;
+use prone_report::figures::{self, AngleRecord, FigureError, PNG_SCALE};
 use crate::frames::FramesError;
-use crate::output::{Artefacts, RUN_FILE, json};
-use crate::recorded::{CONTACTS_FILE, Command, Extent, MODEL_FILE, ROWS_FILE};
-use crate::run_info::Program;
+use prone_record::output::{Artefacts, RUN_FILE, json};
+use prone_record::recorded::{CONTACTS_FILE, Command, Extent, MODEL_FILE, ROWS_FILE};
+use RUNINFO::Program;
 
 /// Why a record has no files.
 #[derive(Debug, thiserror::Error)]

@@ -5,11 +5,11 @@ use serde::Serialize;
 use prone::gait::Gait;
 use prone::gait::cycle::Cycle;
 use prone::robot::{JointAngles, Robot};
-use prone_sim::regime::{Effort, SOLIMP, SOLREF, Servo, Stops};
+use prone::regime::{Effort, SOLIMP, SOLREF, Servo, Stops};
 use prone_sim::{LoadedRobot, World};
 
-use crate::recorded::{Command, Extent};
-use crate::run_info::{Program, RobotInfo};
+use prone_record::recorded::{Command, Extent};
+use RUNINFO::{Program, RobotInfo};
 
 /// A crawl that ends past the obstacles of its scene.
 #[derive(Debug, Clone, Copy, PartialEq)]

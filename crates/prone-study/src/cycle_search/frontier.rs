@@ -6,15 +6,15 @@ use prone::gait::cycle::Cycle;
 use prone::robot::Robot;
 use prone_sim::LoadedRobot;
 use prone_sim::crawl::CrawlError;
-use serde::{Deserialize, Serialize};
+use prone_record::frontier::{Confirmed, ConfirmedSetting, SettingKind};
 
 use super::CycleProblem;
 use super::form::{CycleForm, CycleFormError, PointError};
 use super::price::{Aim, CyclePrice, CyclePricer, PricerError};
-use super::setting::{Role, Setting, SettingKind};
+use super::setting::{Role, Setting};
 use super::settings::{HOLDS, SettingError};
 use super::trial::{Trial, try_out};
-use crate::optimize::search::{Search, SearchEnd};
+use prone_record::search::{Search, SearchEnd};
 
 /// Why nothing can be said.
 #[derive(Debug, thiserror::Error)]
@@ -100,44 +100,6 @@ impl<'a> Hunt<'a> {
         let price = self.pricer.quote(&cycle);
         Ok((cycle, price))
     }
-}
-
-/// What a confirmation says of a cycle under a ceiling.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Confirmed {
-    /// Whether everything that was asked holds.
-    pub holds: bool,
-    /// What was found in each setting.
-    pub settings: Vec<ConfirmedSetting>,
-}
-
-/// A cycle in one setting.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct ConfirmedSetting {
-    /// What the setting changes.
-    pub setting: SettingKind,
-    /// Advance per cycle, mm; `None` where it cannot be crawled, with the reason below.
-    pub mm_per_cycle: Option<f64>,
-    /// Speed, mm/s.
-    pub mm_per_s: Option<f64>,
-    /// Change of heading per cycle, degrees, positive to the left.
-    pub yaw_deg: Option<f64>,
-    /// Highest point, mm.
-    pub top_mm: Option<f64>,
-    /// Part of the body that reaches it.
-    pub top_part: Option<String>,
-    /// Heat per metre, s/m.
-    pub heat_per_metre_s: Option<f64>,
-    /// Largest actuator torque over the manufacturer's effort limit.
-    pub peak_torque_over_rated: Option<f64>,
-    /// Whose.
-    pub peak_joint: Option<String>,
-    /// Largest torque that a shoulder's servo demands, before the effort limit, N·m.
-    pub demanded_shoulder_nm: Option<f64>,
-    /// Advance over the first setting's.
-    pub kept: Option<f64>,
-    /// Why it cannot be crawled.
-    pub refused: Option<String>,
 }
 
 /// Crawls a cycle in the settings of a confirmation, under a ceiling, m.

@@ -17,58 +17,11 @@ use prone::gait::{Clamp, LimitsPolicy};
 use prone::robot::{JointAngles, JointId};
 use prone_sim::crawl::CrawlError;
 use prone_sim::self_collision::{SelfCollision, SelfCollisionError};
-use serde::Serialize;
+use prone_record::frontier::{CycleObjective, SettingKind};
 
 use super::rules::{CycleRules, UNTRIED, above};
-use super::setting::{Role, Setting, SettingKind};
+use super::setting::{Role, Setting};
 use super::trial::{Trial, try_out};
-
-/// What is minimised.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum CycleObjective {
-    /// ∫ Σ (τ / nominal torque)² dt per metre, s/m.
-    Heat,
-    /// Minus the advance per cycle, m.
-    Advance,
-    /// Minus the speed, m/s.
-    Speed,
-    /// Largest torque that a shoulder's servo demands, with the robot's own servo gains, N·m.
-    Peak,
-}
-
-impl CycleObjective {
-    /// All objectives.
-    pub const ALL: [Self; 4] = [Self::Heat, Self::Advance, Self::Speed, Self::Peak];
-
-    /// The objective of a name in files and records, `None` for any other name.
-    pub fn named(name: &str) -> Option<Self> {
-        Self::ALL
-            .into_iter()
-            .find(|objective| objective.name() == name)
-    }
-
-    /// Name in files and records.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Heat => "heat",
-            Self::Advance => "advance",
-            Self::Speed => "speed",
-            Self::Peak => "peak",
-        }
-    }
-
-    /// Of trials where values count, the one with the robot's own servos first.
-    fn value(self, trials: &[&Trial], merge: &Merge) -> f64 {
-        let first = |of: fn(&Trial) -> f64| trials.first().map_or(f64::NAN, |trial| of(trial));
-        match self {
-            Self::Heat => merge.heat(trials),
-            Self::Advance => first(|trial| -trial.advance),
-            Self::Speed => first(|trial| -trial.advance / trial.seconds),
-            Self::Peak => first(|trial| trial.demanded_shoulder),
-        }
-    }
-}
 
 /// How the heats with different servos become one.
 #[derive(Debug, Clone, PartialEq)]
@@ -271,7 +224,7 @@ impl<'a> CyclePricer<'a> {
             .filter(|(setting, _)| setting.spec.role == Role::Value)
             .map(|(_, trial)| trial)
             .collect();
-        price.value = objective.value(&valued, merge);
+        price.value = value(*objective, &valued, merge);
         if !valued.is_empty() {
             price.violation += rules.broken_by_heat(merge.heat(&valued));
         }
@@ -315,6 +268,17 @@ impl<'a> CyclePricer<'a> {
             Ok(scan) => (broken + depth(scan.closest.closest.distance_m), None),
             Err(error) => (broken + UNTRIED, Some(error.into())),
         }
+    }
+}
+
+/// Of trials where values count, the one with the robot's own servos first.
+fn value(objective: CycleObjective, trials: &[&Trial], merge: &Merge) -> f64 {
+    let first = |of: fn(&Trial) -> f64| trials.first().map_or(f64::NAN, |trial| of(trial));
+    match objective {
+        CycleObjective::Heat => merge.heat(trials),
+        CycleObjective::Advance => first(|trial| -trial.advance),
+        CycleObjective::Speed => first(|trial| -trial.advance / trial.seconds),
+        CycleObjective::Peak => first(|trial| trial.demanded_shoulder),
     }
 }
 

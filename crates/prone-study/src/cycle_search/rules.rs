@@ -10,7 +10,7 @@
 //!
 //! What is not a number keeps no rule: it breaks it by [`UNTRIED`].
 
-use prone_sim::regime::Servo;
+use prone::regime::Servo;
 
 use super::setting::Role;
 use super::trial::Trial;

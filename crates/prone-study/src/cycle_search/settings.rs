@@ -8,8 +8,9 @@ use prone::gait::{PhaseDuration, PhaseDurationError};
 use prone::robot::{JointAngles, Robot};
 use prone::scene::SideFriction;
 use prone_optim::Random;
-use prone_sim::regime::Servo;
-use prone_sim::{LoadedRobot, Regime, WorldError};
+use prone::regime::Servo;
+use prone_sim::{LoadedRobot, WorldError};
+use prone::regime::Regime;
 
 use super::rules::CycleRules;
 use super::setting::{Role, Setting, SettingKind, SettingSpec};

@@ -10,7 +10,7 @@ use prone::frames::Transform;
 use prone_sim::camera::{self, Camera, Picture};
 use prone_sim::{Snapshot, World};
 
-use crate::recorded::Recorded;
+use prone_record::recorded::Recorded;
 
 // Lengths are those at scale 1 of `camera::scale`.
 

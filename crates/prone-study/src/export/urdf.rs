@@ -13,7 +13,7 @@ use glam::{DMat3, DQuat, DVec3, EulerRot};
 use prone::robot::{Body, BodyId, Robot};
 use prone_sim::{InertiaView, ShapeView, World};
 
-use crate::markup::escaped;
+use prone_report::markup::escaped;
 
 /// Groups of the engine that are drawn: 0 to 2.
 const DRAWN: std::ops::RangeInclusive<i32> = 0..=2;

@@ -6,7 +6,7 @@
 //! it, whichever way it goes.
 
 use rayon::prelude::*;
-use serde::Serialize;
+use prone_record::gait_search::{Confirmation, Refusal, Row, Verdict};
 
 use prone::cost::CostError;
 use prone::gait::{Gait, PhaseDuration};
@@ -16,9 +16,9 @@ use prone_sim::pull::{self, Keep, Pull, PullError, Start};
 
 use super::dynamic::{self, TrialError};
 use super::objective::{NoMotor, Objective};
-use crate::contact_story;
-use crate::record::JOINTS;
-use crate::torque_study::{Observer, pull_record};
+use prone_record::contact_story;
+use prone_record::pulls::JOINTS;
+use prone_thesis::torque_study::{Observer, pull_record};
 
 /// What is simulated.
 #[derive(Debug, Clone)]
@@ -31,86 +31,6 @@ pub struct ConfirmPlan<'a> {
     pub durations: &'a [PhaseDuration],
     /// What the search minimised.
     pub objective: &'a Objective,
-}
-
-/// Every gait in every regime at every duration.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Confirmation {
-    /// What came out.
-    pub rows: Vec<Row>,
-    /// Gaits that could not be simulated, and why.
-    pub refused: Vec<Refusal>,
-    /// The found gait against each of the others.
-    pub verdicts: Vec<Verdict>,
-}
-
-/// One simulated pull.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Row {
-    /// Contact regime.
-    pub regime: &'static str,
-    /// Name of the gait.
-    pub gait: String,
-    /// Duration of the pull, s.
-    pub duration_s: f64,
-    /// What the search minimised, here per phase.
-    pub objective: f64,
-    /// The same over that of the first gait in the same regime at the same duration.
-    pub ratio: f64,
-    /// ∫ Σ τ² dt, N²·m²·s.
-    pub torque_n2m2s: f64,
-    /// ∫ Σ (τ/`τ_nominal`)² dt, s; `None` where a motor's figures are missing.
-    pub heat_s: Option<f64>,
-    /// Largest |τ| over the effort limit.
-    pub peak_of_effort: f64,
-    /// The joint that has it.
-    pub peak_joint: &'static str,
-    /// Share of the normal force on trunk and legs, percent.
-    pub body_share_percent: f64,
-    /// From where on toes and elbows carry most of the weight to the end, percent of the phase;
-    /// `None` where they do not.
-    pub carried_from_percent: Option<f64>,
-    /// How far the trunk moved forward, mm.
-    pub advance_mm: f64,
-    /// Highest point of any shape, mm.
-    pub top_mm: f64,
-}
-
-/// A pull that could not be simulated.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Refusal {
-    /// Contact regime.
-    pub regime: &'static str,
-    /// Name of the gait.
-    pub gait: String,
-    /// Why.
-    pub reason: String,
-}
-
-/// The found gait against another in one regime.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Verdict {
-    /// Contact regime.
-    pub regime: &'static str,
-    /// The other gait.
-    pub against: String,
-    /// Durations at which the found gait costs less.
-    pub cheaper_at: usize,
-    /// Durations at which both were simulated.
-    pub of: usize,
-    /// Lowest ratio of found to other.
-    pub best_ratio: f64,
-    /// Highest ratio of found to other.
-    pub worst_ratio: f64,
-}
-
-impl Confirmation {
-    /// Whether the found gait costs less than the first one everywhere in a regime.
-    pub fn holds(&self, regime: &str, base: &str) -> bool {
-        let mut verdicts = self.verdicts.iter();
-        verdicts
-            .any(|v| v.regime == regime && v.against == base && v.of > 0 && v.cheaper_at == v.of)
-    }
 }
 
 /// Why there is no confirmation.
@@ -187,12 +107,6 @@ pub fn run(plan: &ConfirmPlan<'_>, observer: &dyn Observer) -> Result<Confirmati
     fill_ratios(&mut confirmation.rows, plan);
     confirmation.verdicts = verdicts(&confirmation.rows, plan);
     Ok(confirmation)
-}
-
-impl Refusal {
-    fn is_about(&self, other: &Self) -> bool {
-        self.regime == other.regime && self.gait == other.gait
-    }
 }
 
 impl Job<'_> {
@@ -273,13 +187,6 @@ fn fill_ratios(rows: &mut [Row], plan: &ConfirmPlan<'_>) {
     for row in rows {
         let own = bases.iter().find(|base| row.is_beside(base));
         row.ratio = own.map_or(f64::NAN, |base| row.objective / base.objective);
-    }
-}
-
-impl Row {
-    /// Whether two rows are of the same regime and duration.
-    fn is_beside(&self, other: &Self) -> bool {
-        self.regime == other.regime && (self.duration_s - other.duration_s).abs() < 1e-9
     }
 }
 

@@ -2,7 +2,7 @@
 //! settled.
 //!
 //! Torque is **joint torque in the sign of the recordings**, of the right side, averaged over
-//! control steps, as in [`crate::record`]; its integral is that of the published study
+//! control steps, as in [`prone_record::pulls`]; its integral is that of the published study
 //! ([`prone::cost::squared_torque_integral`]).
 //!
 //! What the planned chain breaks is graded first ([`graded::violations`]), and a search does not
@@ -25,7 +25,7 @@ use prone::mapping::{Mapping, MappingError};
 use prone::robot::{ContactGroup, Robot};
 use prone::torque_map::JointTorques;
 use prone_sim::pull::{self, Keep, Pull, PullError, Start};
-use prone_sim::regime::CONTROL_STEP;
+use prone::regime::CONTROL_STEP;
 use prone_sim::{Placement, Simulation, World};
 
 use super::pricing::{Pricing, Share};

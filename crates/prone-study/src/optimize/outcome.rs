@@ -1,18 +1,15 @@
 //! What a search leaves behind: `result.json`, `history.csv`, `confirmation.csv`.
 
-use serde::Serialize;
-
 use prone::gait::{CurveError, Gait};
 use prone_optim::{Candidate, Problem};
 
-use super::confirm::{Confirmation, Refusal, Row, Verdict};
+use prone_record::gait_search::{Compared, Confirmation, Outcome, RunOutcome};
 use super::form::Parametrisation;
-use super::pricer::{NotCubic, Priced, Pricer};
+use super::pricer::{NotCubic, Pricer};
 use super::problem::GaitProblem;
 use super::published_problem;
-use super::search::{Search, SearchEnd, SeededRun};
-use crate::curves_info::CurvesInfo;
-use crate::tables::{finish, number};
+use prone_record::search::{Search, SearchEnd, SeededRun};
+use prone_record::curves_info::CurvesInfo;
 
 /// Gaits of one form, priced.
 pub struct Hunt<'a> {
@@ -63,64 +60,6 @@ impl Hunt<'_> {
             }
         }
     }
-}
-
-/// What a search found.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Outcome {
-    /// Name of the gait.
-    pub gait: String,
-    /// What it is made of.
-    pub curves: CurvesInfo,
-    /// Its price.
-    #[serde(flatten)]
-    pub price: Priced,
-    /// Unit of the torque part.
-    pub unit: &'static str,
-    /// Seed of the run that found it.
-    pub seed: u64,
-    /// Evaluations of all runs.
-    pub evaluations: u64,
-    /// Whether every run came to its own end, or the search was stopped by its time budget.
-    pub complete: bool,
-    /// Variables.
-    pub variables: usize,
-    /// Each run's best.
-    pub runs: Vec<RunOutcome>,
-    /// The gaits that it is compared with, priced the same way.
-    pub compared: Vec<Compared>,
-    /// What simulation says at other durations and in the other regime.
-    pub verdicts: Vec<Verdict>,
-    /// Gaits that could not be simulated there.
-    pub refused: Vec<Refusal>,
-}
-
-/// One run's best.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct RunOutcome {
-    /// Its seed.
-    pub seed: u64,
-    /// Its best gait's price, `None` where nothing was evaluated.
-    #[serde(flatten)]
-    pub price: Option<Priced>,
-    /// Evaluations.
-    pub evaluations: u64,
-    /// Generations.
-    pub generations: u64,
-    /// How often the population began anew.
-    pub restarts: u64,
-}
-
-/// Another gait's price, and the found one's over it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Compared {
-    /// Name of the gait.
-    pub gait: String,
-    /// Its price.
-    #[serde(flatten)]
-    pub price: Priced,
-    /// The found gait's torque part over this one's, where both are known.
-    pub torque_ratio: Option<f64>,
 }
 
 /// Why a search has no outcome.
@@ -216,94 +155,3 @@ fn run_outcome(hunt: &Hunt<'_>, run: &SeededRun) -> Result<RunOutcome, OutcomeEr
     })
 }
 
-/// `history.csv`: one row per generation of each run.
-///
-/// # Errors
-/// [`csv::Error`], which writing to memory does not produce.
-pub fn history_csv(search: &Search) -> Result<Vec<u8>, csv::Error> {
-    let mut table = csv::Writer::from_writer(Vec::new());
-    table.write_record([
-        "seed",
-        "generation",
-        "evaluations",
-        "best_violation",
-        "best_torque",
-        "generation_best_violation",
-        "generation_best_torque",
-        "mean_violation",
-        "feasible",
-        "mean_feasible_torque",
-        "restarts",
-        "mean_torque",
-    ])?;
-    for run in search.runs() {
-        for row in &run.history.0 {
-            let mean_torque = (row.mean_value.is_finite()).then(|| number(row.mean_value, 6));
-            let mean = (row.feasible > 0).then(|| number(row.mean_feasible_value, 6));
-            table.write_record([
-                run.seed.to_string(),
-                row.generation.to_string(),
-                row.evaluations.to_string(),
-                number(row.best.violation(), 6),
-                number(row.best.value(), 6),
-                number(row.generation_best.violation(), 6),
-                number(row.generation_best.value(), 6),
-                number(row.mean_violation, 6),
-                row.feasible.to_string(),
-                mean.unwrap_or_default(),
-                row.restarts.to_string(),
-                mean_torque.unwrap_or_default(),
-            ])?;
-        }
-    }
-    finish(table)
-}
-
-/// `confirmation.csv`: one row per simulated pull.
-///
-/// # Errors
-/// [`csv::Error`], which writing to memory does not produce.
-pub fn confirmation_csv(confirmation: &Confirmation) -> Result<Vec<u8>, csv::Error> {
-    let mut table = csv::Writer::from_writer(Vec::new());
-    table.write_record([
-        "regime",
-        "gait",
-        "duration_s",
-        "objective",
-        "ratio",
-        "torque_n2m2s",
-        "heat_s",
-        "peak_of_effort",
-        "peak_joint",
-        "body_share_percent",
-        "carried_from_percent",
-        "advance_mm",
-        "top_mm",
-    ])?;
-    for row in &confirmation.rows {
-        table.write_record(cells(row))?;
-    }
-    finish(table)
-}
-
-fn cells(row: &Row) -> [String; 13] {
-    let maybe = |value: Option<f64>, decimals| {
-        let value = value.filter(|value| value.is_finite());
-        value.map_or_else(String::new, |value| number(value, decimals))
-    };
-    [
-        row.regime.to_owned(),
-        row.gait.clone(),
-        row.duration_s.to_string(),
-        number(row.objective, 6),
-        maybe(Some(row.ratio), 6),
-        number(row.torque_n2m2s, 6),
-        maybe(row.heat_s, 6),
-        number(row.peak_of_effort, 6),
-        row.peak_joint.to_owned(),
-        number(row.body_share_percent, 3),
-        maybe(row.carried_from_percent, 3),
-        number(row.advance_mm, 3),
-        number(row.top_mm, 3),
-    ]
-}

@@ -1,7 +1,6 @@
 //! From what is to be minimised, and by what it is measured, to something that prices gaits.
 
-use serde::Serialize;
-
+use prone_record::gait_search::{Broken, Priced};
 use prone::cost::graded::{Price, Rule};
 use prone::cost::published::{PublishedObjective, PublishedRules};
 use prone::gait::{Gait, PhaseDuration};
@@ -108,31 +107,6 @@ pub enum PricerError {
 pub struct NotCubic {
     /// The gait's name.
     pub gait: String,
-}
-
-/// A price, in parts.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Priced {
-    /// What is minimised among gaits with the same violations; for `published` its cost, in which
-    /// violations weigh 1000 each. `None` where it is not known, as violations forbid to simulate.
-    pub cost: Option<f64>,
-    /// The torque part.
-    pub torque: Option<f64>,
-    /// Published: violated samples. Graded: the sum of excesses, 0 for a gait that keeps the rules.
-    pub violations: f64,
-    /// The rules that are broken.
-    pub broken: Vec<Broken>,
-}
-
-/// A broken rule.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Broken {
-    /// Its name.
-    pub rule: &'static str,
-    /// How often.
-    pub count: u32,
-    /// By how much in all, shares of the limit; for `published` the count once more.
-    pub sum: f64,
 }
 
 /// The pricing of gaits in one world.
@@ -273,7 +247,7 @@ impl Pricer<'_> {
     /// [`NotCubic`] by the published objective.
     pub fn price(&self, gait: &Gait) -> Result<Priced, NotCubic> {
         match self {
-            Self::Graded(pricing) => Ok(pricing.quote(gait).into()),
+            Self::Graded(pricing) => Ok(priced(pricing.quote(gait))),
             Self::Published { objective, .. } => {
                 let coefficients =
                     published_problem::coefficients_of(gait).ok_or_else(|| NotCubic {
@@ -306,8 +280,9 @@ impl Pricer<'_> {
     }
 }
 
-impl From<Price> for Priced {
-    fn from(price: Price) -> Self {
+/// A graded price, in the form of a record.
+fn priced(price: Price) -> Priced {
+    {
         let torque = (!price.torque.is_nan()).then_some(price.torque);
         let broken = |(rule, excess): (Rule, prone::cost::graded::Excess)| Broken {
             rule: rule.name(),

@@ -12,8 +12,8 @@ use serde::Serialize;
 
 use prone::torque_map::{Mask, RecordedMap, Row};
 
-use crate::agreement::{correlation, rms};
-use crate::record::JOINTS;
+use prone_thesis::agreement::{correlation, rms};
+use prone_record::pulls::JOINTS;
 
 /// What came out of a comparison of a first file, `a`, with a second, `b`.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -9,10 +9,11 @@ use prone::mapping::{ArmMode, Mapping, MappingError, MappingVariant};
 use prone::statics::{HalfRobot, SymmetryError};
 use prone::torque_map::COLUMNS;
 use prone_sim::settled::STILL;
-use prone_sim::{LoadedRobot, Regime};
+use prone_sim::LoadedRobot;
+use prone::regime::Regime;
 
 use super::NodeGrid;
-use crate::run_info::Program;
+use RUNINFO::Program;
 
 const VARIANT: MappingVariant = MappingVariant::Original;
 const ARM: ArmMode = ArmMode::Fixed;

@@ -8,7 +8,7 @@ use prone_files::shipped;
 use prone_sim::{LoadedRobot, RobotFiles};
 
 use super::*;
-use crate::run_info::Program;
+use RUNINFO::Program;
 use crate::torque_map::NodeGrid;
 
 const PROGRAM: Program = Program {

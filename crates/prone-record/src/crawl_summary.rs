@@ -1,0 +1,246 @@
+//! A crawl in figures: `summary.json`.
+
+use serde::{Deserialize, Serialize};
+
+use prone::robot::{BodyPart, Tops};
+
+/// What came out of a crawl.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CrawlSummary {
+    /// The cycle's name.
+    pub gait: String,
+    /// The robot's name.
+    pub robot: String,
+    /// The scene's name.
+    pub scene: String,
+    /// How many cycles were crawled.
+    pub cycles: usize,
+    /// Whether it got past the obstacles, where that was asked for.
+    pub arrived: Option<bool>,
+    /// Displacement of the root along the heading of the start, mm.
+    pub distance_mm: f64,
+    /// How far it came along its own heading: sum of the cycles' advances, mm. Where it turns, that
+    /// is more than the distance.
+    pub path_mm: f64,
+    /// How long it took, settling apart, s.
+    pub time_s: f64,
+    /// Path over cycles, mm.
+    pub mm_per_cycle: f64,
+    /// What of that the pulls made, mm: mean of the cycles' own advances.
+    pub pull_mm_per_cycle: f64,
+    /// What the recoveries made, mm.
+    pub recovery_mm_per_cycle: f64,
+    /// Path over time, mm/s.
+    pub mm_per_s: f64,
+    /// Displacement to the left of the line of the start, mm.
+    pub lateral_mm: f64,
+    /// Change of heading, degrees, positive to the left.
+    pub yaw_deg: f64,
+    /// How often a part of the robot met a plate, its legs or a panel.
+    pub plate_contacts: usize,
+    /// The same by part of the robot and obstacle.
+    pub contacts: Vec<PlateContact>,
+    /// Highest points above the floor, mm.
+    pub top_mm: TopsMm,
+    /// Advance of the shoulder in the planned closed chain, mm.
+    pub stride_mm: f64,
+    /// Advance of a pull over that stride; nothing where the plan does not lead forward.
+    pub pull_efficiency: Option<f64>,
+    /// Advance per cycle over that stride: above 1 where recoveries advance too; nothing where the
+    /// plan does not lead forward.
+    pub stride_efficiency: Option<f64>,
+    /// Share of the ground's force on trunk and legs during pulls, mean of the cycles.
+    pub pull_body_share: f64,
+    /// The same during recoveries.
+    pub recovery_body_share: f64,
+    /// Largest actuator torque over the manufacturer's effort limit.
+    pub peak_torque_over_rated: f64,
+    /// Whose that is.
+    pub peak_torque_joint: String,
+    /// Largest torque that a servo of a shoulder's pitch demanded, before its limit, N·m.
+    pub demanded_peak_shoulder_nm: f64,
+    /// Share of the time in which the servo of a shoulder's pitch demanded more than the effort
+    /// limit, of the side where it is larger.
+    pub saturated_shoulder_share: f64,
+    /// Share of the time in which a servo demanded more than the effort limit, of the joint where
+    /// it is largest.
+    pub saturated_share: f64,
+    /// Which joint that is, if any servo ever demanded so much.
+    pub saturated_joint: Option<String>,
+    /// ∫ Σ (τ / nominal torque)² dt, s.
+    pub heat_s: f64,
+    /// The same per metre of path, s/m; nothing where it did not come forward.
+    pub heat_per_metre_s: Option<f64>,
+    /// Positive mechanical work of the motors, J.
+    pub work_j: f64,
+    /// That work over weight times path; nothing where it did not come forward.
+    pub cost_of_transport: Option<f64>,
+    /// What the windings of the motors lost, J: an estimate; nothing where a motor is not known.
+    pub winding_loss_j: Option<f64>,
+    /// Work and winding loss over weight times path: an estimate, in which gears lose nothing
+    /// and what is braked is not given back.
+    pub electrical_cost_of_transport: Option<f64>,
+    /// What each motor did.
+    pub joints: Vec<JointSummary>,
+    /// Joints stopped at their limits in the plan without a turn.
+    pub clamps: Vec<SheetClamp>,
+    /// Joints whose calibration error led commands past their limits, where they were stopped.
+    #[serde(default)]
+    pub calibration_stops: Vec<CalibrationStop>,
+    /// One entry per cycle.
+    pub per_cycle: Vec<CycleSummary>,
+}
+
+/// A joint whose calibration error led commands past its limit, where it was stopped.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CalibrationStop {
+    /// Name of the joint.
+    pub joint: String,
+    /// How many commands, those that held the start posture included.
+    pub commands: usize,
+    /// Largest amount cut off, degrees, negative at the lower limit.
+    pub largest_deg: f64,
+}
+
+/// A part of the robot that met an obstacle.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PlateContact {
+    /// The part, by its name in the model.
+    pub body: String,
+    /// Kind and number of the obstacle.
+    pub obstacle: String,
+    /// How often they met.
+    pub count: usize,
+    /// When first, s since the first pull began.
+    pub first_s: f64,
+    /// How long in all, s.
+    pub seconds: f64,
+    /// Largest normal force, N.
+    pub peak_n: f64,
+}
+
+/// Highest points by part of the body, mm.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct TopsMm {
+    /// Neck and head.
+    pub head: f64,
+    /// Trunk and pelvis.
+    pub trunk: f64,
+    /// Shoulders to hands.
+    pub arms: f64,
+    /// Thighs and shins.
+    pub legs: f64,
+    /// From the ankles on.
+    pub feet: f64,
+}
+
+/// One cycle.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CycleSummary {
+    /// From 1.
+    pub cycle: usize,
+    /// The turn command of its pull, degrees.
+    pub turn_command_deg: f64,
+    /// When it began, s.
+    pub begin_s: f64,
+    /// How long it lasted, s.
+    pub time_s: f64,
+    /// Along the heading with which it began, mm.
+    pub advance_mm: f64,
+    /// What of that the pull made, mm.
+    pub pull_advance_mm: f64,
+    /// To the left of that, mm.
+    pub left_mm: f64,
+    /// Change of heading, degrees.
+    pub yaw_deg: f64,
+    /// Where it ended along the heading of the start, mm.
+    pub x_mm: f64,
+    /// Where it ended to the left of the line of the start, mm.
+    pub y_mm: f64,
+    /// Highest points.
+    pub top_mm: TopsMm,
+    /// ∫ Σ (τ / nominal torque)² dt, s.
+    pub heat_s: f64,
+    /// Positive mechanical work, J.
+    pub work_j: f64,
+    /// Share of the ground's force on trunk and legs during the pull.
+    pub body_share: f64,
+    /// The same during the recovery.
+    pub recovery_body_share: f64,
+}
+
+/// One joint over a whole crawl. Torque is **actuator torque**, after the effort limit, unless it
+/// says demanded.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct JointSummary {
+    /// The manufacturer's name.
+    pub joint: String,
+    /// The manufacturer's effort limit, N·m.
+    pub effort_limit_nm: f64,
+    /// Continuous torque of the motor at the joint, before gear losses, N·m, where it is known.
+    pub nominal_nm: Option<f64>,
+    /// Largest |τ|, N·m.
+    pub peak_nm: f64,
+    /// √(∫ τ² dt / time), N·m.
+    pub rms_nm: f64,
+    /// Largest |τ| that the servo demanded, N·m.
+    pub demanded_peak_nm: f64,
+    /// Share of the time in which the servo demanded more than the effort limit.
+    pub saturated_share: f64,
+    /// ∫ (τ / nominal torque)² dt, s; nothing where the motor is not known.
+    pub heat_s: Option<f64>,
+    /// ∫ max(τω, 0) dt, J.
+    pub work_j: f64,
+    /// What the winding lost, J ([`prone::robot::Motor::winding_loss`]): an estimate; nothing where
+    /// the motor's speed without load is not known.
+    pub winding_loss_j: Option<f64>,
+}
+
+/// A joint stopped at its limit.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SheetClamp {
+    /// The manufacturer's name of the joint.
+    pub joint: String,
+    /// In how many of the samples.
+    pub samples: usize,
+    /// First of them, percent of the phase.
+    pub from_percent: f64,
+    /// Last of them, percent of the phase.
+    pub to_percent: f64,
+    /// Largest amount cut off, degrees, negative at the lower limit.
+    pub largest_deg: f64,
+}
+
+impl TopsMm {
+    /// Of heights in m.
+    pub fn of(tops: &Tops) -> Self {
+        let of = |part: BodyPart| tops.0[part as usize] * 1e3;
+        Self {
+            head: of(BodyPart::Head),
+            trunk: of(BodyPart::Trunk),
+            arms: of(BodyPart::Arms),
+            legs: of(BodyPart::Legs),
+            feet: of(BodyPart::Feet),
+        }
+    }
+
+    /// In the order of [`BodyPart::ALL`].
+    pub const fn to_array(self) -> [f64; 5] {
+        [self.head, self.trunk, self.arms, self.legs, self.feet]
+    }
+
+    /// Of all parts.
+    pub fn highest(self) -> f64 {
+        self.to_array()
+            .into_iter()
+            .fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// The part that reaches highest, and how high, mm.
+    pub fn highest_part(self) -> (BodyPart, f64) {
+        let parts = BodyPart::ALL.into_iter().zip(self.to_array());
+        parts
+            .max_by(|a, b| a.1.total_cmp(&b.1))
+            .unwrap_or((BodyPart::Trunk, f64::NEG_INFINITY))
+    }
+}

@@ -1,0 +1,19 @@
+//! Records: what an experiment leaves behind, as types and as files. No physics engine is linked here.
+//!
+//! [`output`] puts result folders in place whole or not at all; [`recorded`] reads the record of a
+//! crawl or a pull, whoever made it. The other modules hold what results say.
+
+pub mod contact_story;
+pub mod crawl_summary;
+pub mod crawl_tables;
+pub mod curves_info;
+pub mod figure_entry;
+pub mod frontier;
+pub mod gait_search;
+pub mod output;
+pub mod program;
+pub mod pulls;
+pub mod recorded;
+pub mod search;
+pub mod statistics;
+pub mod tables;

@@ -1,0 +1,17 @@
+//! A record in formats that other tools open.
+//!
+//! | module | format | read by |
+//! |---|---|---|
+//! | [`table`] | CSV, one line per joint and instant | data frames, plots |
+//! | [`ros_log`] | MCAP with the messages of ROS 2 | Foxglove, Rerun, `PlotJuggler` |
+//! | [`numpy`] | `.npz` | `NumPy` |
+//! | [`key_frames`] | one cycle as JSON | reinforcement learning |
+//! | [`timeline`] | one cycle as a Choregraphe project | Choregraphe |
+//!
+//! Names carry their unit in every format that has room for it; docs/export.md lists them.
+
+pub mod key_frames;
+pub mod numpy;
+pub mod ros_log;
+pub mod table;
+pub mod timeline;

@@ -1,0 +1,194 @@
+//! One commanded cycle as key frames: as few as let straight lines between them follow it.
+
+use serde::Serialize;
+
+use prone::gait::cycle::{CheckedCycle, CycleError, RecoveryPath};
+use prone::robot::{JointAngles, Robot};
+
+use prone_record::output;
+
+/// Time between two places where a key frame of a file may be, s: that of the motor boards.
+pub const TICK: f64 = 0.01;
+
+/// How far straight lines between key frames may leave the commanded angle, rad: a quarter of a
+/// degree, less than the play of a small humanoid's gears.
+pub const TOLERANCE: f64 = 0.25 * std::f64::consts::PI / 180.0;
+
+/// A cycle from extension to extension.
+#[derive(Debug, Clone, PartialEq)]
+pub struct KeyFrames {
+    /// Time between two ticks, s.
+    pub tick_s: f64,
+    /// In the order of time. The last one is the first one's posture again.
+    pub frames: Vec<KeyFrame>,
+}
+
+/// A posture and when it is commanded.
+#[derive(Debug, Clone, PartialEq)]
+pub struct KeyFrame {
+    /// Ticks since the pull began.
+    pub tick: usize,
+    /// What the posture is, where it has a name.
+    pub label: Option<String>,
+    /// All joints, rad.
+    pub angles: JointAngles,
+}
+
+/// Takes key frames of a cycle at multiples of `tick_s`: the ends of its stretches, moved to the
+/// nearest tick, and what is needed between them to stay within [`TOLERANCE`].
+///
+/// # Errors
+/// [`CycleError`] where the cycle's own recovery is too fast.
+pub fn of(checked: &CheckedCycle, tick_s: f64) -> Result<KeyFrames, CycleError> {
+    let course = Course {
+        checked,
+        recovery: checked.recovery_after(checked)?,
+        pull_s: checked.pull().duration().seconds(),
+        tick_s,
+    };
+    let mut labels = vec![(0, "extension".to_owned())];
+    labels.push((course.tick(course.pull_s), "compression".to_owned()));
+    for (name, end) in checked.recovery_ends() {
+        labels.push((course.tick(course.pull_s + end), name.to_owned()));
+    }
+    let mut ticks: Vec<usize> = labels.iter().map(|(tick, _)| *tick).collect();
+    for pair in labels.windows(2) {
+        course.refine(pair[0].0, pair[1].0, &mut ticks);
+    }
+    ticks.sort_unstable();
+    ticks.dedup();
+    let last = course.tick(course.pull_s + checked.recovery_seconds());
+    let frames = ticks.into_iter().map(|tick| {
+        // A cycle closes, wherever its end falls between two ticks.
+        let angles = if tick == last {
+            checked.extension().clone()
+        } else {
+            course.at(tick)
+        };
+        let label = labels.iter().find(|(labelled, _)| *labelled == tick);
+        KeyFrame {
+            tick,
+            label: label.map(|(_, name)| name.clone()),
+            angles,
+        }
+    });
+    Ok(KeyFrames {
+        tick_s,
+        frames: frames.collect(),
+    })
+}
+
+/// Writes key frames as JSON.
+///
+/// # Errors
+/// [`serde_json::Error`], which these values do not produce.
+pub fn json(
+    robot: &Robot,
+    checked: &CheckedCycle,
+    key_frames: &KeyFrames,
+) -> Result<Vec<u8>, serde_json::Error> {
+    let time_s = |tick: usize| (tick as f64 * key_frames.tick_s * 1e6).round() / 1e6;
+    let file = File {
+        robot: &robot.name,
+        gait: checked.name(),
+        period_s: time_s(key_frames.frames.last().map_or(0, |last| last.tick)),
+        pull_s: checked.pull().duration().seconds(),
+        interpolation: "linear",
+        tolerance_rad: TOLERANCE,
+        joints: robot
+            .joints
+            .iter()
+            .map(|joint| joint.name.as_str())
+            .collect(),
+        frames: key_frames
+            .frames
+            .iter()
+            .map(|frame| Entry {
+                time_s: time_s(frame.tick),
+                label: frame.label.as_deref(),
+                angles_rad: frame
+                    .angles
+                    .as_slice()
+                    .iter()
+                    .map(|angle| rounded(*angle))
+                    .collect(),
+            })
+            .collect(),
+    };
+    output::json(&file)
+}
+
+#[derive(Serialize)]
+struct File<'a> {
+    robot: &'a str,
+    gait: &'a str,
+    period_s: f64,
+    pull_s: f64,
+    interpolation: &'static str,
+    tolerance_rad: f64,
+    joints: Vec<&'a str>,
+    frames: Vec<Entry<'a>>,
+}
+
+#[derive(Serialize)]
+struct Entry<'a> {
+    time_s: f64,
+    label: Option<&'a str>,
+    angles_rad: Vec<f64>,
+}
+
+/// To the microradian, as in records; 0 without a sign.
+fn rounded(angle: f64) -> f64 {
+    (angle * 1e6).round() / 1e6 + 0.0
+}
+
+/// What is commanded over a cycle.
+struct Course<'a> {
+    checked: &'a CheckedCycle,
+    recovery: RecoveryPath,
+    pull_s: f64,
+    tick_s: f64,
+}
+
+impl Course<'_> {
+    fn at(&self, tick: usize) -> JointAngles {
+        let seconds = tick as f64 * self.tick_s;
+        if seconds <= self.pull_s {
+            self.checked.pull_at(seconds)
+        } else {
+            self.recovery.at(seconds - self.pull_s)
+        }
+    }
+
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a time of a cycle is neither negative nor long"
+    )]
+    fn tick(&self, seconds: f64) -> usize {
+        (seconds / self.tick_s).round() as usize
+    }
+
+    /// Adds the tick between two where the straight line is farthest off, and so on in both parts.
+    fn refine(&self, from: usize, to: usize, ticks: &mut Vec<usize>) {
+        let (first, last) = (self.at(from), self.at(to));
+        let off = |tick: usize| {
+            let share = (tick - from) as f64 / (to - from) as f64;
+            let line = first.towards(&last, share);
+            let now = self.at(tick);
+            line.pairs(&now)
+                .map(|(line, now)| (line - now).abs())
+                .fold(0.0, f64::max)
+        };
+        let farthest = (from + 1..to)
+            .map(|tick| (off(tick), tick))
+            .max_by(|a, b| a.0.total_cmp(&b.0));
+        if let Some((off, tick)) = farthest
+            && off > TOLERANCE
+        {
+            ticks.push(tick);
+            self.refine(from, tick, ticks);
+            self.refine(tick, to, ticks);
+        }
+    }
+}

@@ -1,0 +1,185 @@
+//! A record as a `NumPy` archive: a zip of one `.npy` file per array, not compressed.
+//!
+//! The format of an array is `NumPy`'s own, version 1.0
+//! (<https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html>).
+
+use std::io::Write as _;
+
+use rawzip::{CompressionMethod, ZipArchiveWriter};
+
+use prone::robot::ContactGroup;
+
+use prone_record::recorded::{Recorded, RecordedRow};
+
+/// An array's data begins at a multiple of this, so that it can be mapped into memory.
+const ALIGNMENT: usize = 64;
+
+/// Why there is no archive.
+#[derive(Debug, thiserror::Error)]
+pub enum ArchiveError {
+    /// The archive refuses an entry.
+    #[error("NumPy archive: {0}")]
+    Zip(#[from] rawzip::Error),
+    /// It cannot be written.
+    #[error("NumPy archive: {0}")]
+    Write(#[from] std::io::Error),
+}
+
+/// Makes the archive. Arrays over instants begin with their axis.
+///
+/// # Errors
+/// [`ArchiveError`], which writing to memory does not produce.
+pub fn of(record: &Recorded) -> Result<Vec<u8>, ArchiveError> {
+    let (rows, contacts) = (&record.rows, &record.contacts);
+    let joints = record.joints.len();
+    let per_joint = |values: &dyn Fn(&RecordedRow) -> &[f64]| {
+        let values = rows.iter().flat_map(|row| values(row).iter().copied());
+        numbers(&[rows.len(), joints], values)
+    };
+    let speeds = record.joint_speeds().into_iter().flatten();
+    let root = |row: &RecordedRow| row.ground_from_root;
+    let arrays = [
+        (
+            "time_s",
+            numbers(&[rows.len()], rows.iter().map(|row| row.time_s)),
+        ),
+        (
+            "cycle",
+            numbers(&[rows.len()], rows.iter().map(|row| row.cycle as f64)),
+        ),
+        ("joints", texts(record.joints.iter().map(String::as_str))),
+        ("command_rad", per_joint(&|row| row.command.as_slice())),
+        ("position_rad", per_joint(&|row| row.angles.as_slice())),
+        ("velocity_rad_s", numbers(&[rows.len(), joints], speeds)),
+        ("effort_nm", per_joint(&|row| &row.actuator_torque_nm)),
+        (
+            "root_position_m",
+            numbers(
+                &[rows.len(), 3],
+                rows.iter()
+                    .flat_map(|row| root(row).origin().metres().to_array()),
+            ),
+        ),
+        (
+            "root_quaternion_wxyz",
+            numbers(
+                &[rows.len(), 4],
+                rows.iter()
+                    .map(|row| root(row).rotation())
+                    .flat_map(|q| [q.w, q.x, q.y, q.z]),
+            ),
+        ),
+        (
+            "ground_groups",
+            texts(ContactGroup::ALL.iter().map(|group| group.name())),
+        ),
+        (
+            "ground_n",
+            numbers(&[rows.len(), 4], rows.iter().flat_map(|row| row.ground_n)),
+        ),
+        (
+            "contact_time_s",
+            numbers(
+                &[contacts.len()],
+                contacts.iter().map(|contact| contact.time_s),
+            ),
+        ),
+        (
+            "contact_body",
+            texts(
+                contacts
+                    .iter()
+                    .map(|contact| record.bodies[contact.body].name.as_str()),
+            ),
+        ),
+        (
+            "contact_with",
+            texts(contacts.iter().map(|contact| contact.with.as_str())),
+        ),
+        (
+            "contact_position_m",
+            numbers(
+                &[contacts.len(), 3],
+                contacts
+                    .iter()
+                    .flat_map(|contact| contact.at.metres().to_array()),
+            ),
+        ),
+        (
+            "contact_force_n",
+            numbers(
+                &[contacts.len(), 3],
+                contacts
+                    .iter()
+                    .flat_map(|contact| contact.force_n.to_array()),
+            ),
+        ),
+    ];
+    let mut archive = ZipArchiveWriter::new(Vec::new());
+    for (name, array) in arrays {
+        let name = format!("{name}.npy");
+        let file = archive
+            .new_file(&name)
+            .compression_method(CompressionMethod::STORE);
+        let (mut entry, config) = file.start()?;
+        let mut writer = config.wrap(&mut entry);
+        writer.write_all(&array)?;
+        let (_, descriptor) = writer.finish()?;
+        entry.finish(descriptor)?;
+    }
+    Ok(archive.finish()?)
+}
+
+/// 64-bit floats, the last axis innermost.
+fn numbers(shape: &[usize], values: impl Iterator<Item = f64>) -> Vec<u8> {
+    let mut file = head("<f8", shape);
+    file.extend(values.flat_map(f64::to_le_bytes));
+    file
+}
+
+/// Texts in `NumPy`'s form: UTF-32, each as long as the longest, filled up with zeros.
+fn texts<'a>(values: impl Iterator<Item = &'a str> + Clone) -> Vec<u8> {
+    let longest = values.clone().map(|text| text.chars().count()).max();
+    // An array of empty texts has length 1, as NumPy makes it.
+    let longest = longest.unwrap_or(0).max(1);
+    let mut file = head(&format!("<U{longest}"), &[values.clone().count()]);
+    for text in values {
+        let filled = text.chars().chain(std::iter::repeat('\0')).take(longest);
+        file.extend(filled.flat_map(|letter| u32::from(letter).to_le_bytes()));
+    }
+    file
+}
+
+/// Magic, version, length, and a Python dictionary padded with spaces.
+fn head(kind: &str, shape: &[usize]) -> Vec<u8> {
+    let axes: Vec<String> = shape.iter().map(usize::to_string).collect();
+    let axes = axes.join(", ");
+    let mut dictionary =
+        format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({axes},), }}");
+    let before = b"\x93NUMPY".len() + 2 + 2;
+    let length = (before + dictionary.len() + 1).next_multiple_of(ALIGNMENT) - before;
+    while dictionary.len() + 1 < length {
+        dictionary.push(' ');
+    }
+    dictionary.push('\n');
+    let mut file = b"\x93NUMPY\x01\x00".to_vec();
+    #[expect(clippy::cast_possible_truncation, reason = "some hundred letters")]
+    file.extend((length as u16).to_le_bytes());
+    file.extend(dictionary.as_bytes());
+    file
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_array_begins_aligned() {
+        let file = numbers(&[2, 3], [0.5; 6].into_iter());
+        assert_eq!(file.len() % ALIGNMENT, 48 % ALIGNMENT);
+        assert_eq!(&file[file.len() - 49..][..1], b"\n");
+        let texts = texts(["ab", "c"].into_iter());
+        let letters = &texts[texts.len() - 16..];
+        assert_eq!(letters, b"a\0\0\0b\0\0\0c\0\0\0\0\0\0\0");
+    }
+}

@@ -1,0 +1,37 @@
+//! A record as one tidy CSV table: a line per instant and joint.
+
+use prone_record::recorded::Recorded;
+use prone_record::tables::{finish, number};
+
+/// The names of the columns.
+const COLUMNS: [&str; 6] = [
+    "time_s",
+    "joint",
+    "command_rad",
+    "position_rad",
+    "velocity_rad_s",
+    "effort_nm",
+];
+
+/// Makes the table: instants in their order, in each the joints in the robot's order.
+///
+/// # Errors
+/// [`csv::Error`], which writing to memory does not produce.
+pub fn of(record: &Recorded) -> Result<Vec<u8>, csv::Error> {
+    let mut table = csv::Writer::from_writer(Vec::new());
+    table.write_record(COLUMNS)?;
+    for (row, speeds) in record.rows.iter().zip(record.joint_speeds()) {
+        let time = number(row.time_s, 4);
+        for (index, joint) in record.joints.iter().enumerate() {
+            table.write_record([
+                &time,
+                joint,
+                &number(row.command.as_slice()[index], 6),
+                &number(row.angles.as_slice()[index], 6),
+                &number(speeds[index], 4),
+                &number(row.actuator_torque_nm[index], 5),
+            ])?;
+        }
+    }
+    finish(table)
+}

@@ -1,0 +1,63 @@
+//! Puts figures among the files of a result, and lists them in `figures.json`.
+
+use prone_record::figure_entry::{FIGURES_FILE, FigureEntry};
+use crate::figures::Figure;
+use prone_record::output::{Artefacts, json};
+
+/// Collects the entries while figures are put among the files of a result.
+#[derive(Debug, Default)]
+pub struct FigureList(Vec<FigureEntry>);
+
+impl FigureList {
+    /// Puts a drawing and its PNG into `folder` of the result; `folder` ends in `/` or is empty.
+    pub fn drawing(
+        &mut self,
+        artefacts: &mut Artefacts,
+        folder: &str,
+        figure: Figure,
+        png: Vec<u8>,
+    ) {
+        self.insert(artefacts, folder, figure, png, Kind::Drawing);
+    }
+
+    /// Puts a picture and the SVG around it into `figures/` of the result.
+    pub fn picture(&mut self, artefacts: &mut Artefacts, figure: Figure, png: Vec<u8>) {
+        self.insert(artefacts, "figures/", figure, png, Kind::Picture);
+    }
+
+    /// Puts `figures.json` into the result.
+    ///
+    /// # Errors
+    /// [`serde_json::Error`], which entries do not produce.
+    pub fn finish(self, artefacts: &mut Artefacts) -> Result<(), serde_json::Error> {
+        artefacts.insert(FIGURES_FILE.to_owned(), json(&self.0)?);
+        Ok(())
+    }
+
+    fn insert(
+        &mut self,
+        artefacts: &mut Artefacts,
+        folder: &str,
+        figure: Figure,
+        png: Vec<u8>,
+        kind: Kind,
+    ) {
+        let file = format!("{folder}{}", figure.stem);
+        artefacts.insert(format!("{file}.png"), png);
+        artefacts.insert(format!("{file}.svg"), figure.svg.into_bytes());
+        self.0.push(FigureEntry {
+            file,
+            number: figure.number.to_owned(),
+            title: figure.title,
+            caption: figure.caption,
+            alt: figure.alt,
+            picture: kind == Kind::Picture,
+        });
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Drawing,
+    Picture,
+}

@@ -1,0 +1,215 @@
+//! The figures of the published results, drawn again from records.
+//!
+//! Each drawing is SVG; its PNG is rasterised from that same SVG. Same records, same bytes.
+//! Numbers are those of the thesis' chapter 5, and go with the gaits named "nominal" and
+//! "optimal"; figures that compare gaits show every gait there is. What the records lack is left
+//! out: a panel, a curve or a whole figure.
+//!
+//! `records` holds what is drawn and is not in `prone_record::pulls`; `check` refuses what no axis can show.
+//! `style` is the look, `svg` and `font` draw, `axis`, `bar`, `panel` and `sheet` lay out, `raster` makes
+//! pixels; `parameters`, `chain`, `torque`, `comparison` and `cost` are the figures. `torque_map` draws
+//! what the thesis does not: slices of a map, with the cells and colours of `heat`.
+
+mod axis;
+mod bar;
+mod chain;
+mod check;
+mod comparison;
+mod cost;
+mod crawl_angles;
+mod font;
+mod frontier;
+mod heat;
+mod panel;
+mod parameters;
+pub(crate) mod raster;
+mod records;
+mod search;
+mod selection;
+mod sheet;
+mod style;
+mod svg;
+#[cfg(test)]
+mod tests;
+mod torque;
+mod torque_map;
+
+pub use crawl_angles::figure as crawl_angles;
+pub use frontier::figure as frontier_figure;
+pub use records::{AngleRecord, AngleRow, ConfirmedRecord, GenerationRecord, Scores, SearchRecord};
+pub use search::{confirmation, generations};
+
+use prone_thesis::published;
+use prone_record::pulls::{ChainRecord, CostRecord, PullRecord};
+use sheet::Sheet;
+pub use torque_map::figures as torque_map_figures;
+
+/// Pixels per unit of an SVG figure in the PNG that lies beside it.
+pub const PNG_SCALE: f32 = 2.0;
+
+/// One finished drawing.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Figure {
+    /// Name of its files, without extension.
+    pub stem: String,
+    /// Number of its original in the thesis; empty where it has none.
+    pub number: &'static str,
+    /// A few words.
+    pub title: String,
+    /// What is shown, in which unit, from which source.
+    pub caption: String,
+    /// Description for readers who do not see it.
+    pub alt: String,
+    /// The drawing.
+    pub svg: String,
+}
+
+/// Why figures could not be drawn.
+#[derive(Debug, thiserror::Error)]
+pub enum FigureError {
+    /// A record holds a number no axis can show.
+    #[error("{place}: {value} cannot be drawn")]
+    Value {
+        /// Where the number is.
+        place: String,
+        /// The number.
+        value: f64,
+    },
+    /// The drawing is not valid SVG.
+    #[error("the drawing cannot be read back: {0}")]
+    Parse(#[from] resvg::usvg::Error),
+    /// The picture would have no pixels, or far too many.
+    #[error("scale {scale} gives no picture of usable size")]
+    Scale {
+        /// Pixels per unit asked for.
+        scale: f32,
+    },
+    /// The picture could not be written as PNG.
+    #[error("the picture cannot be encoded: {0}")]
+    Encode(String),
+}
+
+impl Figure {
+    /// The same drawing as PNG, `scale` pixels per unit of the SVG (which is 900 units wide).
+    ///
+    /// # Errors
+    /// If `scale` is not a positive number of reasonable size, or the SVG was altered.
+    pub fn png(&self, scale: f32) -> Result<Vec<u8>, FigureError> {
+        raster::png(&self.svg, scale)
+    }
+}
+
+/// Everything drawn for one gait alone, with the numbers of the originals.
+struct GaitNumbers {
+    gait: &'static str,
+    chain: &'static str,
+    torque: torque::Numbers,
+    /// Where the thesis sees the curves of different durations part, s.
+    published_divergence_s: f64,
+}
+
+const NUMBERED: [GaitNumbers; 2] = [
+    GaitNumbers {
+        gait: published::NOMINAL,
+        chain: "26",
+        torque: torque::Numbers {
+            by_duration: "36",
+            time: "38",
+            transient: "40",
+            cycle: "42",
+        },
+        published_divergence_s: 0.25,
+    },
+    GaitNumbers {
+        gait: published::OPTIMAL,
+        chain: "34",
+        torque: torque::Numbers {
+            by_duration: "37",
+            time: "39",
+            transient: "41",
+            cycle: "43",
+        },
+        published_divergence_s: 0.175,
+    },
+];
+
+/// Figure 25 of some gaits; nothing without chains.
+pub(crate) fn parameters(chains: &[ChainRecord]) -> Option<Figure> {
+    check::chains(chains).ok()?;
+    parameters::figure(chains)
+}
+
+/// All figures that the records allow, in the order of their numbers.
+///
+/// # Errors
+/// If a record holds a number that is not finite, or a duration that is not positive.
+pub fn study_figures(
+    chains: &[ChainRecord],
+    pulls: &[PullRecord],
+    costs: &[CostRecord],
+) -> Result<Vec<Figure>, FigureError> {
+    check::chains(chains)?;
+    check::pulls(pulls)?;
+    check::costs(costs)?;
+
+    let mut figures: Vec<Figure> = parameters::figure(chains).into_iter().collect();
+    for numbers in &NUMBERED {
+        if let Some(record) = chains.iter().find(|record| record.gait == numbers.gait) {
+            figures.extend(chain::figure(record, numbers.chain));
+        }
+        let runs = selection::runs_of(pulls, numbers.gait);
+        let divergence_s = numbers.published_divergence_s;
+        figures.extend(torque::figures(
+            numbers.gait,
+            &runs,
+            &numbers.torque,
+            divergence_s,
+        ));
+    }
+    figures.extend(comparison::figure(
+        pulls,
+        NUMBERED[0].gait,
+        NUMBERED[1].gait,
+    ));
+    figures.extend(cost::figures(costs, NUMBERED[0].gait));
+    figures.sort_by_key(|figure| figure.number);
+    Ok(figures)
+}
+
+/// What is said about a drawing.
+struct Wording {
+    stem: String,
+    number: &'static str,
+    title: String,
+    caption: String,
+    alt: String,
+}
+
+impl Wording {
+    fn with(self, sheet: &Sheet) -> Figure {
+        let Self {
+            stem,
+            number,
+            title,
+            caption,
+            alt,
+        } = self;
+        let svg = sheet.draw(&stem, &title, &alt);
+        Figure {
+            stem,
+            number,
+            title,
+            caption,
+            alt,
+            svg,
+        }
+    }
+}
+
+/// `text` beginning with a capital.
+fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| {
+        first.to_uppercase().chain(letters).collect()
+    })
+}

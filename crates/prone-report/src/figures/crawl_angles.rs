@@ -1,0 +1,104 @@
+//! Figure 31: joint angles of the left side over a few crawl cycles.
+
+use super::axis::Axis;
+use super::panel::{Band, Curve, Panel};
+use super::records::{AngleRecord, AngleRow};
+use super::sheet::{KeyEntry, Sheet};
+use super::style::{BAND, CURVE_WIDTH, INK, LIGHT, Stroke};
+use super::{Figure, FigureError, Wording, check};
+use prone_thesis::published;
+
+/// One panel for each joint; nothing without rows.
+///
+/// # Errors
+/// [`FigureError`] where a number cannot be drawn.
+pub fn figure(record: &AngleRecord) -> Result<Option<Figure>, FigureError> {
+    check::angles(record)?;
+    let AngleRecord {
+        gait,
+        joints,
+        rows,
+        cycles: shown,
+    } = record;
+    let Some(end) = rows.last().map(|row| row.time_s) else {
+        return Ok(None);
+    };
+    let mut any_band = false;
+    let panels = joints.iter().enumerate().map(|(joint, name)| {
+        let over_time = |angles: fn(&AngleRow) -> &[f64]| {
+            let points = rows.iter();
+            points.map(|row| (row.time_s, angles(row)[joint])).collect()
+        };
+        let curves = vec![
+            Curve {
+                points: over_time(|row| &row.command_rad),
+                stroke: Stroke::solid(LIGHT, CURVE_WIDTH + 1.0),
+                marker: None,
+            },
+            Curve {
+                points: over_time(|row| &row.angle_rad),
+                stroke: Stroke::solid(INK, CURVE_WIDTH),
+                marker: None,
+            },
+        ];
+        let band = published::crawl_range(name);
+        any_band |= band.is_some();
+        let values = curves
+            .iter()
+            .flat_map(|curve| &curve.points)
+            .map(|point| point.1);
+        let ends = band.iter().flat_map(|&(low, high)| [low, high]);
+        let y = Axis::covering("angle, rad", values.chain(ends));
+        let mut panel = Panel::new(name.clone(), Axis::exactly("time, s", 0.0, end), y, curves);
+        panel
+            .bands
+            .extend(band.map(|(low, high)| Band { low, high }));
+        panel
+    });
+    let panels: Vec<Panel> = panels.collect();
+    let mut key = vec![
+        KeyEntry::line(
+            "measured, ours".to_owned(),
+            Stroke::solid(INK, CURVE_WIDTH),
+            None,
+        ),
+        KeyEntry::line(
+            "commanded, ours".to_owned(),
+            Stroke::solid(LIGHT, CURVE_WIDTH + 1.0),
+            None,
+        ),
+    ];
+    let mut source = "Ours: simulation, one value per 20 ms.".to_owned();
+    if any_band {
+        key.push(KeyEntry::band(
+            "range on the crawling robot, published".to_owned(),
+            BAND,
+        ));
+        source.push_str(
+            " Published: the range that the same joint swept on the real robot at 3 s a cycle, read \
+             off the original's figure.",
+        );
+    }
+    let sheet = Sheet {
+        key,
+        bar: None,
+        columns: 2,
+        frame_height: 130.0,
+        panels,
+    };
+    let wording = Wording {
+        stem: format!("fig-31-{gait}-angles"),
+        number: "31",
+        title: format!("{gait}: joint angles of the left side over {shown} cycles"),
+        caption: format!(
+            "Joint angles, rad, in the robot's own signs, over the first {shown} cycles of a crawl \
+             with {gait}. {source}"
+        ),
+        alt: format!(
+            "Line plots, one for each of {} joints of the left leg and arm, of commanded and measured \
+             angle over {end:.0} seconds.",
+            joints.len()
+        ),
+    };
+    Ok(Some(wording.with(&sheet)))
+}

@@ -1,0 +1,15 @@
+//! Records shown: figures, the report, the replay, and logs that other tools open. Nothing here
+//! computes physics, and no physics engine is linked.
+//!
+//! [`figures`] draws, [`report`] puts result folders together as one page, [`view`] replays, and
+//! [`export`] writes other formats. A [`publication::Publication`] is what all of it may be held
+//! against.
+
+pub mod export;
+pub mod figure_list;
+pub mod figures;
+mod markup;
+mod page_head;
+pub mod publication;
+pub mod report;
+pub mod view;

@@ -1,0 +1,147 @@
+//! Reading result folders whose drawings are shown as they are: searches of whole cycles, frontiers,
+//! torque maps.
+
+use serde::Deserialize;
+
+use super::ReportError;
+use super::cut_table::Cut;
+use super::folder::Folder;
+use prone_study::cycle_search::frontier::Confirmed;
+use prone_study::cycle_search::price::CycleObjective;
+use crate::figure_list::FigureEntry;
+use crate::figures::{Figure, GenerationRecord, Scores, SearchRecord, generations};
+
+/// What such a command left behind.
+pub(super) struct DrawnRun {
+    pub(super) folder: Folder,
+    pub(super) recorded: Vec<FigureEntry>,
+    /// Of a search of whole cycles.
+    pub(super) cycles: Option<CycleResult>,
+    /// Generation by generation, the search of cycles that found the best.
+    pub(super) history: Option<SearchRecord>,
+    pub(super) cuts: Vec<Cut>,
+}
+
+/// What is needed of the `result.json` of a search of cycles.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub(super) struct CycleResult {
+    pub(super) objective: String,
+    pub(super) margin_mm: f64,
+    pub(super) found: Vec<FoundCycle>,
+}
+
+/// What one search found.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub(super) struct FoundCycle {
+    pub(super) ceiling_mm: Option<f64>,
+    pub(super) seed: u64,
+    pub(super) evaluations: u64,
+    pub(super) gait: String,
+    pub(super) value: Option<f64>,
+    pub(super) violation: f64,
+    pub(super) confirmed: Confirmed,
+}
+
+impl DrawnRun {
+    /// A search of whole cycles.
+    pub(super) fn cycles(folder: Folder) -> Result<Self, ReportError> {
+        let result: CycleResult = folder.json("result.json")?;
+        let mut cuts = Vec::new();
+        Ok(Self {
+            recorded: folder.figures()?,
+            history: history(&folder, &result, &mut cuts)?,
+            cycles: Some(result),
+            cuts,
+            folder,
+        })
+    }
+
+    /// Slices of a torque map.
+    pub(super) fn map(folder: Folder) -> Result<Self, ReportError> {
+        Ok(Self {
+            recorded: folder.figures()?,
+            cycles: None,
+            history: None,
+            cuts: Vec::new(),
+            folder,
+        })
+    }
+
+    /// Figure 24, drawn from the table.
+    pub(super) fn drawing(&self) -> Result<Option<Figure>, ReportError> {
+        let drawn = self.history.as_ref().map(generations).transpose();
+        let drawn = drawn.map_err(|source| ReportError::Figure {
+            run: self.folder.name.clone(),
+            source,
+        })?;
+        Ok(drawn.flatten())
+    }
+}
+
+/// What the values of a search are, in which unit, and that unit in theirs; searches minimise, so that
+/// what is to be large is negative.
+fn quantity(folder: &Folder, objective: &str) -> Option<(&'static str, &'static str, f64)> {
+    Some(match CycleObjective::named(objective)? {
+        CycleObjective::Heat if folder.said("/worst_over").is_some() => {
+            ("heat over another cycle's", "–", 1.0)
+        }
+        CycleObjective::Heat => ("heat per metre", "s/m", 1.0),
+        CycleObjective::Advance => ("advance per cycle", "mm", -1e3),
+        CycleObjective::Speed => ("speed", "mm/s", -1e3),
+        CycleObjective::Peak => ("torque demanded of a shoulder", "N·m", 1.0),
+    })
+}
+
+/// The search that found the best cycle.
+fn history(
+    folder: &Folder,
+    result: &CycleResult,
+    cuts: &mut Vec<Cut>,
+) -> Result<Option<SearchRecord>, ReportError> {
+    let mut table = folder.table("history.csv")?;
+    let [ceiling, seed, generation] = table.columns(["ceiling_mm", "seed", "generation"])?;
+    let columns = table.columns(["best_violation", "best_value", "mean_violation"])?;
+    let rows = table.rows(|line| {
+        // A cycle that cannot be crawled has no value.
+        let [best_violation, best_value, mean_violation] =
+            columns.map(|column| line.text(column).parse::<f64>().ok());
+        let row = GenerationRecord {
+            generation: line.whole(generation)?,
+            best_violation: best_violation?,
+            best_value: best_value?,
+            mean_violation: mean_violation?,
+            mean_value: None,
+            mean_feasible_value: None,
+        };
+        Some((line.optional(ceiling).ok()?, line.whole(seed)?, row))
+    });
+    cuts.extend(table.cut());
+    let order = |found: &FoundCycle| (found.violation, found.value.unwrap_or(f64::INFINITY));
+    let best = result.found.iter().min_by(|a, b| {
+        let (a, b) = (order(a), order(b));
+        a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
+    });
+    let Some((best, (objective, unit, factor))) = best.zip(quantity(folder, &result.objective))
+    else {
+        return Ok(None);
+    };
+    // The table has a tenth of a millimetre.
+    let same = |height: Option<f64>| match height.zip(best.ceiling_mm) {
+        Some((a, b)) => (a - b).abs() < 0.06,
+        None => height.is_none() && best.ceiling_mm.is_none(),
+    };
+    let own = rows
+        .into_iter()
+        .filter(|(height, of, _)| *of == best.seed && same(*height));
+    let generations = own.map(|(_, _, row)| GenerationRecord {
+        best_value: row.best_value * factor,
+        ..row
+    });
+    Ok(Some(SearchRecord {
+        seed: best.seed,
+        objective: objective.to_owned(),
+        unit: unit.to_owned(),
+        scores: Scores::Graded,
+        generations: generations.collect(),
+    }))
+}

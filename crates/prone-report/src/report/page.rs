@@ -1,0 +1,403 @@
+//! The page: its order, its figures, and what stands where a figure is not there.
+
+use std::collections::BTreeSet;
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD as BASE64;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+use super::chapter::{self, MadeBy, Part, Place};
+use super::folder::Given;
+use super::shown::{Image, Shown};
+use super::study::StudyRun;
+use super::{
+    Card, LARGEST_PAGE, ReportError, Run, card_sections, parameter_tables, replay, run_sections,
+    sections,
+};
+use crate::page_head;
+use prone_thesis::published;
+
+const STYLE: &str = include_str!("style.css");
+
+/// Nothing leaves the page, and nothing comes to it. The frame of the replay inherits this.
+const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; \
+                      img-src data:; base-uri 'none'; form-action 'none'";
+
+/// What stands around the sections, at most, bytes; and in the place of a picture.
+const AROUND: usize = 4_000;
+const PLACE: usize = 300;
+
+/// What a page is made of.
+pub(super) struct Page<'a> {
+    pub(super) runs: &'a [Run],
+    pub(super) shown: &'a [Shown],
+    pub(super) cards: &'a [Card],
+    /// Names of the pictures for which it has no room.
+    pub(super) left_out: BTreeSet<String>,
+}
+
+impl Page<'_> {
+    /// The page, and the folders that its replay shows.
+    pub(super) fn html(mut self) -> Result<(String, Vec<String>), ReportError> {
+        let above = self.above();
+        let mut below = self.below();
+        let room = LARGEST_PAGE.saturating_sub(above.0.len() + AROUND + STYLE.len());
+        if let Some(excess) = below.0.len().checked_sub(room) {
+            self.left_out = self.last_pictures(excess);
+            below = self.below();
+        }
+        let room = room.saturating_sub(below.0.len());
+        let replay = replay::of(self.runs, room)?;
+        let replayed = replay
+            .as_ref()
+            .map_or_else(Vec::new, |replay| replay.shown.clone());
+        let title = format!("prone: report of {}", self.titles().join(", "));
+        let page = html! {
+            (DOCTYPE)
+            html lang="en" {
+                head {
+                    (page_head::of(&title, POLICY))
+                    style { (PreEscaped(STYLE)) }
+                }
+                body {
+                    (self.header())
+                    main {
+                        (above)
+                        @if let Some(replay) = &replay { (replay_section(replay)) }
+                        (below)
+                    }
+                    (self.footer())
+                }
+            }
+        };
+        Ok((page.into_string(), replayed))
+    }
+
+    /// The last pictures, as many as it takes to save so many bytes.
+    fn last_pictures(&self, excess: usize) -> BTreeSet<String> {
+        let mut saved = 0;
+        let pictures = self.shown.iter().rev().filter_map(|shown| {
+            let Image::Recorded { small, svg, .. } = &shown.image else {
+                return None;
+            };
+            Some((shown, small.as_ref().unwrap_or(svg).len()))
+        });
+        let last = pictures.take_while(|(_, bytes)| {
+            let enough = saved >= excess;
+            // As base64, less what stands in its place.
+            saved += (bytes / 3 * 4).saturating_sub(PLACE);
+            !enough
+        });
+        last.map(|(shown, _)| shown.stem.clone()).collect()
+    }
+
+    /// What is before the replay.
+    fn above(&self) -> Markup {
+        html! {
+            (self.shortfalls())
+            @for study in self.studies() { (sections::results(&study.summary)) }
+            (card_sections::all(self.cards))
+        }
+    }
+
+    /// What is after it.
+    fn below(&self) -> Markup {
+        html! {
+            @for part in &chapter::PARTS { (self.part(part)) }
+            @for study in self.studies() {
+                (sections::costs(&study.summary))
+                (sections::agreement(&study.summary))
+                (sections::contacts(&study.summary))
+                (sections::stride(&study.summary))
+                (sections::clamps(&study.summary))
+                (sections::mappings(&study.summary))
+                (sections::differences())
+            }
+            (run_sections::searches(self.runs))
+            (self.beyond())
+            (run_sections::what_was_run(self.runs))
+        }
+    }
+
+    fn header(&self) -> Markup {
+        html! {
+            header {
+                h1 { "The Projected Profile crawl: report" }
+                p.lead {
+                    "Made from the records of " (self.titles().join("; ")) ". Figures are numbered as in chapter 5 of the \
+                     master's thesis that published this crawl (NYU Polytechnic, 2015). "
+                    strong { "Ours" } " is what this program simulated; " strong { "published" }
+                    " is the thesis; " strong { "theirs" } " is somebody else's. No robot took part."
+                }
+            }
+        }
+    }
+
+    /// The folders that were named.
+    fn titles(&self) -> Vec<String> {
+        let folders = self.runs.iter().map(Run::folder);
+        let named = folders.filter(|folder| folder.given == Given::Named);
+        named
+            .map(|folder| format!("{} ({})", folder.name, folder.command))
+            .collect()
+    }
+
+    fn shortfalls(&self) -> Markup {
+        let sentences: Vec<String> = self.runs.iter().flat_map(Run::shortfalls).collect();
+        html! {
+            @if !sentences.is_empty() {
+                section.warning {
+                    h2 { "Records that are not whole" }
+                    ul { @for sentence in &sentences { li { (sentence) } } }
+                }
+            }
+        }
+    }
+
+    fn studies(&self) -> impl Iterator<Item = &StudyRun> {
+        self.runs.iter().filter_map(|run| match run {
+            Run::Study(study) => Some(study.as_ref()),
+            _ => None,
+        })
+    }
+
+    fn part(&self, part: &Part) -> Markup {
+        html! {
+            section {
+                h2 { (part.title) }
+                p { (part.lead) }
+                @for place in part.places {
+                    (self.place(place))
+                    (self.tables_after(place.number))
+                }
+            }
+        }
+    }
+
+    /// The figures of one number, or what would fill their place.
+    fn place(&self, place: &Place) -> Markup {
+        let figures: Vec<&Shown> = self
+            .shown
+            .iter()
+            .filter(|shown| shown.number == place.number)
+            .collect();
+        html! {
+            @if figures.is_empty() { (empty(place)) }
+            // What is published stands below the first of several.
+            @for (index, figure) in figures.iter().enumerate() {
+                (self.captioned(figure, place.published.filter(|_| index == 0)))
+            }
+        }
+    }
+
+    /// Tables of the chapter that follow a figure.
+    fn tables_after(&self, number: &str) -> Markup {
+        html! {
+            @if number == "25" {
+                @for study in self.studies() {
+                    @for gait in &study.info.options.gaits {
+                        @if gait.name == published::NOMINAL { (parameter_tables::nominal(&gait.curves)) }
+                        @if gait.name == published::OPTIMAL { (parameter_tables::optimal(&gait.curves)) }
+                    }
+                }
+                @for run in self.runs {
+                    @if let Run::Search(search) = run {
+                        (parameter_tables::found(
+                            &search.result.gait, &search.folder.name, &search.result.curves,
+                        ))
+                    }
+                }
+            }
+            @if number == "28" {
+                @for study in self.studies() {
+                    @if !study.summary.table.is_empty() { (sections::table_crawl(&study.summary)) }
+                }
+            }
+        }
+    }
+
+    fn captioned(&self, figure: &Shown, published: Option<&str>) -> Markup {
+        html! {
+            figure id=(figure.stem) {
+                @if self.left_out.contains(&figure.stem) {
+                    div.place { p {
+                        "Left out, as the page would be too large: " code { "figures/" (figure.stem) ".png" }
+                        " of a report that is written into a folder."
+                    } }
+                } @else {
+                    (image(figure))
+                }
+                figcaption {
+                    strong {
+                        @if !figure.number.is_empty() { "Figure " (figure.number) ". " }
+                        (figure.title) ". "
+                    }
+                    (figure.caption)
+                    @if let Some(published) = published { " " (published) }
+                    @if self.runs.len() > 1 { " " span.run { "From " (figure.runs.join(", ")) "." } }
+                }
+            }
+        }
+    }
+
+    /// Figures that the chapter does not have.
+    fn beyond(&self) -> Markup {
+        let others: Vec<&Shown> = self
+            .shown
+            .iter()
+            .filter(|shown| shown.number.is_empty())
+            .collect();
+        html! {
+            @if !others.is_empty() {
+                section {
+                    h2 { "Beyond the chapter" }
+                    @for figure in others { (self.captioned(figure, None)) }
+                }
+            }
+        }
+    }
+
+    fn footer(&self) -> Markup {
+        let robots = self.robots();
+        html! {
+            footer {
+                p {
+                    "Written by prone " (env!("CARGO_PKG_VERSION")) " from records that it made; nothing was \
+                     simulated for this page."
+                    @if !robots.is_empty() {
+                        " Text without a source is about " (robots.join(" and ")) "."
+                    }
+                }
+            }
+        }
+    }
+
+    /// Names of the robots of the records, each once.
+    fn robots(&self) -> Vec<String> {
+        let mut robots = Vec::new();
+        for run in self.runs {
+            let robot = run.folder().said("/robot/name");
+            robots.extend(robot.filter(|robot| !robots.contains(robot)));
+        }
+        robots
+    }
+}
+
+fn replay_section(replay: &replay::Replay) -> Markup {
+    html! {
+        section {
+            h2 { "Replay" }
+            @if replay.shown.is_empty() {
+                p { "The page has no room for a replay." }
+            } @else {
+                p {
+                    "Recorded angles, moved by the page itself: " (replay.shown.join(" beside "))
+                    ". It needs JavaScript; all else does not. Press ? in it for its keys."
+                }
+                (replay.frame)
+            }
+            @if !replay.left_out.is_empty() {
+                p {
+                    "Not in it: " (replay.left_out.join(", ")) ". " code { "prone view RUN" }
+                    " makes a page of any of them."
+                }
+            }
+        }
+    }
+}
+
+/// A figure that is not there: what fills its place.
+fn empty(place: &Place) -> Markup {
+    html! {
+        div.place id={ "place-" (place.number) } {
+            p {
+                strong { "Figure " (place.number) ": " (place.shows) ". " }
+                @match place.made_by {
+                    MadeBy::Command(command) => {
+                        "Not among these runs. " code { (command) } " makes it; give its folder to "
+                        code { "prone report" } "."
+                    }
+                    MadeBy::Robot => {
+                        "Comes with a robot on the wire, which prone does not drive yet."
+                    }
+                }
+            }
+            @if let Some(published) = place.published { p { (published) } }
+        }
+    }
+}
+
+fn image(figure: &Shown) -> Markup {
+    let picture = |kind: &str, bytes: &[u8]| {
+        html! { img alt=(figure.alt) src={ "data:image/" (kind) ";base64," (BASE64.encode(bytes)) }; }
+    };
+    match &figure.image {
+        Image::Drawing { svg, .. } => html! {
+            div.drawing role="img" aria-label=(figure.alt) { (PreEscaped(inline(svg))) }
+        },
+        Image::Recorded {
+            small: Some(small), ..
+        } => picture("png", small),
+        // In an image nothing of a drawing can run or load.
+        Image::Recorded { svg, .. } => html! { div.drawing { (picture("svg+xml", svg)) } },
+    }
+}
+
+/// An SVG document as a part of a page: without its XML declaration.
+fn inline(svg: &str) -> &str {
+    svg.find("<svg").map_or(svg, |start| &svg[start..])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn picture(number: &str, bytes: usize) -> Shown {
+        Shown {
+            stem: format!("picture-{number}"),
+            number: number.to_owned(),
+            title: "A picture".to_owned(),
+            caption: "What it shows.".to_owned(),
+            alt: "A robot.".to_owned(),
+            runs: vec!["run".to_owned()],
+            image: Image::Recorded {
+                svg: Vec::new(),
+                png: Vec::new(),
+                small: Some(vec![7; bytes]),
+            },
+        }
+    }
+
+    fn page(shown: &[Shown]) -> String {
+        let page = Page {
+            runs: &[],
+            shown,
+            cards: &[],
+            left_out: BTreeSet::new(),
+        };
+        page.html().unwrap().0
+    }
+
+    #[test]
+    fn a_page_that_would_be_too_large_leaves_its_last_pictures_out() {
+        let all = ["22", "23", "27", "28"].map(|number| picture(number, 1_500_000));
+        let (fits, too_much) = (page(&all[..2]), page(&all));
+        assert!(!fits.contains("Left out, as"));
+        assert!(too_much.len() <= LARGEST_PAGE && too_much.len() > LARGEST_PAGE / 2);
+        assert_eq!(too_much.matches("Left out, as").count(), 2);
+        assert!(too_much.contains("<code>figures/picture-28.png"));
+        assert!(!too_much.contains("<code>figures/picture-22.png"));
+        // What is left out is named and described all the same.
+        assert_eq!(too_much.matches("What it shows.").count(), all.len());
+    }
+
+    #[test]
+    fn places_without_figures_say_what_fills_them() {
+        let empty = page(&[]);
+        assert_eq!(
+            empty.matches("class=\"place\"").count(),
+            chapter::places().count()
+        );
+        assert!(empty.contains("<code>prone reproduce</code> makes it"));
+    }
+}

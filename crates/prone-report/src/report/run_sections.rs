@@ -1,0 +1,168 @@
+//! What searches found, and under which conditions each run was made.
+
+use maud::{Markup, html};
+
+use super::drawn_run::{CycleResult, FoundCycle};
+use super::folder::Given;
+use super::search_run::SearchRun;
+use super::{Run, sections};
+
+/// What searches found; nothing without searches.
+pub(super) fn searches(runs: &[Run]) -> Markup {
+    let any = runs.iter().any(|run| match run {
+        Run::Search(_) => true,
+        Run::Drawn(run) => run.cycles.is_some(),
+        Run::Study(_) | Run::Crawl(_) | Run::Pull(_) => false,
+    });
+    html! {
+        @if any {
+            section {
+                h2 { "Searches" }
+                @for run in runs {
+                    @match run {
+                        Run::Search(search) => { (pulls(search)) }
+                        Run::Drawn(drawn) => {
+                            @if let Some(cycles) = &drawn.cycles { (found(&drawn.folder.name, cycles)) }
+                        }
+                        Run::Study(_) | Run::Crawl(_) | Run::Pull(_) => {}
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A search of pulls: its price beside the others', and the simulation's verdicts.
+fn pulls(search: &SearchRun) -> Markup {
+    let result = &search.result;
+    html! {
+        p {
+            strong { (result.gait) } ", found in " (search.folder.name) " by the objective "
+            (search.aim) " on " (search.source) ", " (result.evaluations) " evaluations"
+            @if !result.complete { ", ended by its time budget" }
+            ": "
+            @match (result.cost, result.torque) {
+                (Some(cost), Some(torque)) if (cost - torque).abs() > 1e-12 => {
+                    "cost " (format!("{cost:.4}")) ", torque part " (format!("{torque:.4} {}", result.unit))
+                }
+                (Some(cost), _) => { "cost " (format!("{cost:.4} {}", result.unit)) }
+                (None, Some(torque)) => { "torque part " (format!("{torque:.4} {}", result.unit)) }
+                (None, None) => { "no price" }
+            }
+            ", violations " (format!("{:.4}", result.violations)) "."
+            @for compared in &result.compared {
+                @if let Some(ratio) = compared.torque_ratio {
+                    " " (format!("{ratio:.3}")) " of " (compared.gait) "'s there."
+                }
+            }
+        }
+        div.scroll { table {
+            caption {
+                "What the simulation says of " strong { (result.gait) } ": its cost over another gait's, \
+                 at the durations of the confirmation. Ours."
+            }
+            thead { tr { @for head in ["regime", "against", "cheaper at", "lowest ratio", "highest ratio"] {
+                th scope="col" { (head) }
+            } } }
+            tbody { @for verdict in &result.verdicts { tr {
+                th scope="row" { (verdict.regime) }
+                td { (verdict.against) }
+                td { (verdict.cheaper_at) " of " (verdict.of) }
+                td { (sections::optional(verdict.best_ratio, |ratio| format!("{ratio:.3}"))) }
+                td { (sections::optional(verdict.worst_ratio, |ratio| format!("{ratio:.3}"))) }
+            } } }
+        } }
+    }
+}
+
+/// A search of cycles: what each found, in the setting that was asked for.
+fn found(name: &str, result: &CycleResult) -> Markup {
+    let first = |found: &FoundCycle, of: fn(&_) -> Option<f64>, decimals: usize| {
+        let row = found.confirmed.settings.first();
+        sections::optional(row.and_then(of), |value| format!("{value:.decimals$}"))
+    };
+    html! {
+        div.scroll { table {
+            caption {
+                strong { "Cycles, " (name) "." } " Searched for " (result.objective) ", "
+                (result.margin_mm) " mm kept free of the ceiling; ours, simulated in the regime \
+                 locomotion. Holds: keeps 80 % of its advance without touching in all other settings \
+                 of the confirmation."
+            }
+            thead { tr { @for head in [
+                "cycle", "ceiling", "seed", "evaluations", "advance", "speed", "highest point", "heat",
+                "holds",
+            ] { th scope="col" { (head) } } } }
+            tbody { @for found in &result.found { tr {
+                th scope="row" { (found.gait) }
+                td { (sections::optional(found.ceiling_mm, |height| format!("{height:.0} mm"))) }
+                td { (found.seed) }
+                td { (found.evaluations) }
+                td { (first(found, |row: &prone_study::cycle_search::frontier::ConfirmedSetting| row.mm_per_cycle, 1)) " mm" }
+                td { (first(found, |row| row.mm_per_s, 1)) " mm/s" }
+                td { (first(found, |row| row.top_mm, 0)) " mm" }
+                td { (first(found, |row| row.heat_per_metre_s, 0)) " s/m" }
+                td {
+                    @if found.confirmed.holds { "yes" } @else { "no" }
+                    @if found.violation > 0.0 { ", breaks rules" }
+                }
+            } } }
+        } }
+    }
+}
+
+/// Conditions of every run.
+pub(super) fn what_was_run(runs: &[Run]) -> Markup {
+    html! {
+        section {
+            h2 { "What was run" }
+            // What is within another folder was made under the conditions of that one.
+            @for run in runs.iter().filter(|run| run.folder().given == Given::Named) {
+                @let folder = run.folder();
+                h3 { (folder.name) }
+                dl {
+                    dt { "command" } dd { "prone " (folder.command) ", built from commit " (folder.commit) }
+                    @if let Some(engine) = &folder.engine { dt { "engine" } dd { (engine) } }
+                    @match run {
+                        Run::Study(study) => { (sections::study_facts(&study.info)) }
+                        Run::Crawl(_) | Run::Pull(_) | Run::Search(_) | Run::Drawn(_) => {
+                            @for (label, pointer) in FACTS {
+                                @if let Some(value) = folder.said(pointer) {
+                                    dt { (label) } dd { (value) }
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Words and numbers of a `run.json` that are worth reading, with where they are.
+const FACTS: [(&str, &str); 24] = [
+    ("gait", "/gait/name"),
+    ("about it", "/gait/description"),
+    ("its file", "/gait/file"),
+    ("mapping", "/gait/mapping"),
+    ("arms", "/gait/arm"),
+    ("scene", "/scene/name"),
+    ("friction, left", "/scene/friction_left"),
+    ("friction, right", "/scene/friction_right"),
+    ("slope, °", "/scene/slope_deg"),
+    ("contact regime", "/regime/name"),
+    ("torque limit", "/regime/effort_limit"),
+    ("time step, s", "/regime/time_step_s"),
+    ("steering", "/options/steering"),
+    ("joints off by up to, °", "/options/joint_offset_deg"),
+    ("time scale", "/options/time_scale"),
+    ("seed of joint errors", "/options/seed"),
+    ("robot", "/robot/name"),
+    ("its family", "/robot/family"),
+    ("its version", "/robot/version"),
+    ("its files, SHA-256", "/robot/sha256"),
+    ("solver", "/solver"),
+    ("seed", "/seed"),
+    ("budget, evaluations", "/budget"),
+    ("map", "/map"),
+];

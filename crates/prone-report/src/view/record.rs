@@ -1,0 +1,201 @@
+//! A record, packed for the page: all of it, or what of it is whole.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde::Serialize;
+use serde_json::Value;
+
+use super::pack::{self, Packed};
+use prone_record::recorded::{Part, ReadError, Recorded, RecordedContact, RecordedRun};
+
+/// Columns that grow with a run, and are kept to seven digits.
+const EXACT: [&str; 4] = ["time_s", "x_mm", "y_mm", "z_mm"];
+
+/// A recorded run, ready for the page.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Run {
+    title: String,
+    /// Name and value.
+    facts: Vec<(&'static str, String)>,
+    notes: Vec<String>,
+    model: Value,
+    rows: usize,
+    /// From which row on, by name.
+    stages: Vec<(usize, String)>,
+    channels: BTreeMap<String, Packed>,
+    contacts: Option<Contacts>,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize)]
+struct Contacts {
+    counts: String,
+    bodies: String,
+    others: String,
+    names: Vec<String>,
+    channels: BTreeMap<&'static str, Packed>,
+}
+
+impl Run {
+    /// Gait and scene.
+    pub fn title(&self) -> &str {
+        &self.title
+    }
+
+    /// What of the record is missing, one sentence each.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+
+    /// How many instants there are.
+    pub const fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Adds to the title what tells this run from another of the same gait and scene.
+    pub fn set_apart(&mut self, by: &str) {
+        self.title = format!("{} ({by})", self.title);
+    }
+}
+
+/// Reads a record folder. Where a table breaks off, what stands before is taken, and a note says so.
+///
+/// # Errors
+/// [`ReadError`] where nothing can be shown.
+pub fn read(folder: &Path) -> Result<Run, ReadError> {
+    Ok(of(&Recorded::read(folder)?))
+}
+
+/// Packs a record.
+pub fn of(record: &Recorded) -> Run {
+    let mut model = record.model.clone();
+    shorten(&mut model);
+    let channels = record.columns.iter().map(|(name, values)| {
+        let packed = if EXACT.contains(&name.as_str()) {
+            pack::floats(values)
+        } else {
+            pack::wholes(values)
+        };
+        (name.clone(), packed)
+    });
+    let run = &record.run;
+    Run {
+        title: format!("{} · {}", run.gait.name, run.scene.name),
+        facts: facts(run),
+        notes: record.shortfalls(&[Part::Rows, Part::Contacts]),
+        model,
+        rows: record.rows.len(),
+        stages: record.stages.clone(),
+        channels: channels.collect(),
+        contacts: contacts(record),
+    }
+}
+
+/// What *About* says; what a record does not say is left out.
+fn facts(run: &RecordedRun) -> Vec<(&'static str, String)> {
+    let friction = |regime: String| match run.said("/regime/friction") {
+        Some(friction) => format!("{regime}, friction {friction}"),
+        None => regime,
+    };
+    let gait = run.said("/gait/description");
+    let facts = [
+        (
+            "gait",
+            gait.map(|text| format!("{}: {text}", run.gait.name)),
+        ),
+        ("robot", Some(run.robot.name.clone())),
+        (
+            "robot's version",
+            run.robot
+                .version
+                .is_some()
+                .then(|| run.robot.version_name()),
+        ),
+        ("scene", Some(run.scene.name.clone())),
+        ("regime", run.said("/regime/name").map(friction)),
+        ("steering", run.said("/options/steering")),
+        (
+            "pull",
+            run.said("/options/duration_s")
+                .map(|text| format!("{text} s")),
+        ),
+        ("engine", run.said("/engine")),
+        (
+            "recorded by",
+            Some(format!(
+                "prone {}, commit {}, {}",
+                run.version,
+                run.commit,
+                run.command.name()
+            )),
+        ),
+        (
+            "time step",
+            run.said("/regime/time_step_s")
+                .map(|text| format!("{text} s")),
+        ),
+    ];
+    let said = facts.into_iter();
+    said.filter_map(|(name, value)| Some((name, value?)))
+        .collect()
+}
+
+/// Micrometres are enough for the eye.
+fn shorten(value: &mut Value) {
+    match value {
+        Value::Array(values) => values.iter_mut().for_each(shorten),
+        Value::Object(entries) => entries.values_mut().for_each(shorten),
+        Value::Number(number) if number.is_f64() => {
+            let short = number.as_f64().map(|exact| (exact * 1e6).round() / 1e6);
+            // Zero has no sign to the eye.
+            if let Some(short) = short.and_then(|short| serde_json::Number::from_f64(short + 0.0)) {
+                *number = short;
+            }
+        }
+        _ => {}
+    }
+}
+
+/// A number of a contact.
+type Number = fn(&RecordedContact) -> f64;
+
+/// The contacts of all rows, as far as they are known; nothing where none are.
+fn contacts(record: &Recorded) -> Option<Contacts> {
+    if record.contact_counts.is_empty() {
+        return None;
+    }
+    let mut names: Vec<String> = Vec::new();
+    let mut others = Vec::with_capacity(record.contacts.len());
+    for contact in &record.contacts {
+        let known = names.iter().position(|name| *name == contact.with);
+        others.push(known.unwrap_or_else(|| {
+            names.push(contact.with.clone());
+            names.len() - 1
+        }));
+    }
+    let mut counts = record.contact_counts.clone();
+    counts.resize(record.rows.len(), 0);
+    let bodies = record.contacts.iter().map(|contact| contact.body);
+    let numbers: [(&'static str, Number); 6] = [
+        ("x_mm", |contact| contact.at.metres().x * 1e3),
+        ("y_mm", |contact| contact.at.metres().y * 1e3),
+        ("z_mm", |contact| contact.at.metres().z * 1e3),
+        ("fx_n", |contact| contact.force_n.x),
+        ("fy_n", |contact| contact.force_n.y),
+        ("fz_n", |contact| contact.force_n.z),
+    ];
+    let channels = numbers.into_iter().map(|(name, of)| {
+        let values: Vec<f64> = record.contacts.iter().map(of).collect();
+        (name, pack::wholes(&values))
+    });
+    Some(Contacts {
+        counts: pack::counts(counts),
+        bodies: pack::counts(bodies),
+        others: pack::counts(others),
+        names,
+        channels: channels.collect(),
+    })
+}
+
+#[cfg(test)]
+mod tests;

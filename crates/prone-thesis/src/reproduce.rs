@@ -1,0 +1,226 @@
+//! The published chapter's main result, as the files of one folder.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+
+use prone_sim::{LoadedRobot, World, WorldError};
+use prone::regime::Regime;
+
+use prone_study::crawl::pull::PullRecording;
+use prone_study::crawl::record::{RecordError, Recording};
+use prone_report::figure_list::FigureList;
+use prone_study::frames::FramesError;
+use prone_record::output::{Artefacts, RUN_FILE, json};
+use prone_record::recorded::Command;
+use prone_report::report::{PAGE_FILE, Report, ReportError};
+use RUNINFO::{Program, RunInfo};
+use crate::summary::{self, Summary};
+use crate::table_crawl::{self, TableError, TableResult, TableStudy};
+use crate::torque_study::{self, Observer, Plan, StudyError, TorqueStudy};
+use crate::{agreement, contact_story, crawl, frames, published, tables};
+
+/// A finished reproduction.
+#[derive(Debug)]
+pub struct Reproduction {
+    /// The files, by path in the result folder; all the same for the same input.
+    pub artefacts: Artefacts,
+    /// The figures of the study.
+    pub summary: Summary,
+    /// Engine steps done in all.
+    pub engine_steps: usize,
+}
+
+/// Why a reproduction fails.
+#[derive(Debug, thiserror::Error)]
+pub enum ReproduceError {
+    /// The robot does not compile with floor and servos.
+    #[error(transparent)]
+    World(#[from] WorldError),
+    /// The study has no result.
+    #[error(transparent)]
+    Study(#[from] StudyError),
+    /// The crawl under the table has no result.
+    #[error(transparent)]
+    Table(#[from] TableError),
+    /// The frames of the simulated robot cannot be made.
+    #[error(transparent)]
+    Frames(#[from] FramesError),
+    /// A record has no files.
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    /// A table cannot be written or read.
+    #[error("table: {0}")]
+    Csv(#[from] csv::Error),
+    /// A JSON file cannot be written.
+    #[error("JSON: {0}")]
+    Json(#[from] serde_json::Error),
+    /// The report of what was made cannot be written.
+    #[error("report: {0}")]
+    Report(#[from] ReportError),
+}
+
+/// How the report of a reproduction calls its own folder.
+const OWN_NAME: &str = "this folder";
+
+/// What is reproduced.
+#[derive(Debug, Clone, Copy)]
+pub struct Study<'a> {
+    /// With which robot.
+    pub robot: &'a LoadedRobot,
+    /// Which pulls.
+    pub plan: &'a Plan,
+    /// The files of their gaits, by the gaits' names: path and text.
+    pub gait_files: &'a BTreeMap<String, (String, String)>,
+    /// Which crawl, if any.
+    pub table: Option<&'a TableStudy>,
+}
+
+/// Runs the study on the current rayon pool and makes every file of the result.
+///
+/// # Errors
+/// [`ReproduceError`].
+pub fn run(
+    studied: &Study<'_>,
+    program: &Program,
+    observer: &dyn Observer,
+) -> Result<Reproduction, ReproduceError> {
+    let Study {
+        robot, plan, table, ..
+    } = *studied;
+    let world = World::new(robot, Regime::TORQUE_STUDY)?;
+    let (study, table_result) = rayon::join(
+        || torque_study::run(&world, plan, observer),
+        || {
+            let result = table.map(|table| table_crawl::run(robot, table, observer));
+            result.transpose()
+        },
+    );
+    let (study, table_result) = (study?, table_result?);
+    let bins = published::torque_bins()?;
+    let agreement = agreement::of(&study.pulls, &bins);
+    let stories = study
+        .pulls
+        .iter()
+        .filter(|pull| (pull.duration_s - study.showcase_s).abs() < 1e-9)
+        .map(contact_story::of)
+        .collect();
+    let experiments = table_result
+        .as_ref()
+        .map_or_else(Vec::new, |result| result.experiments.clone());
+    let summary = summary::of(&study, agreement, stories, experiments);
+    let info = RunInfo::of(robot, &world, plan, table.map(TableStudy::info), program);
+
+    let mut artefacts = Artefacts::new();
+    for pull in &study.pulls {
+        let name = format!("torques/{}", tables::torque_file_name(pull));
+        artefacts.insert(name, tables::torques(pull)?);
+    }
+    artefacts.insert("chains.csv".into(), tables::chains(&study.chains)?);
+    artefacts.insert("costs.csv".into(), tables::costs(&study.costs)?);
+    artefacts.insert(
+        "agreement.csv".into(),
+        tables::agreement(&summary.agreement)?,
+    );
+    artefacts.insert("summary.json".into(), json(&summary)?);
+    artefacts.insert(RUN_FILE.into(), json(&info)?);
+    artefacts.extend(pull_records(studied, &world, &study, program)?);
+    if let Some((table, result)) = table.zip(table_result.as_ref()) {
+        artefacts.extend(crawl_record(robot, table, result, program)?);
+    }
+
+    let photographed = study
+        .shown
+        .par_iter()
+        .map(|(gait, pull)| frames::of(&world, &gait.name, study.showcase_s, &pull.snapshots))
+        .collect::<Result<Vec<_>, _>>()?;
+    let mut list = FigureList::default();
+    if let Some((gait, pull)) = study.shown.first()
+        && let Some(first) = pull.snapshots.first()
+        && let Some(middle) = pull.snapshots.get(pull.snapshots.len() / 2)
+    {
+        let start = frames::start(&world, &gait.name, &info.options.start_posture, first)?;
+        list.picture(&mut artefacts, start.figure, start.png);
+        artefacts.insert("figures/crawl.png".into(), frames::cover(&world, middle)?);
+    }
+    for frames in photographed {
+        list.picture(&mut artefacts, frames.figure, frames.png);
+    }
+    if let Some(result) = &table_result {
+        let (world, longest) = (&result.world, &result.longest);
+        let gait = longest
+            .cycles
+            .first()
+            .map_or("", |cycle| cycle.gait.as_str());
+        for frames in crawl::frames::on_its_way(world, gait, longest)? {
+            list.picture(&mut artefacts, frames.figure, frames.png);
+        }
+    }
+    list.finish(&mut artefacts)?;
+    // The drawings are those of the report, made from the records as they will be read again.
+    let report = Report::of_artefacts(OWN_NAME, &artefacts)?;
+    artefacts.extend(report.figures()?);
+    artefacts.insert(PAGE_FILE.into(), report.html.into_bytes());
+    let crawling = table_result.map_or(0, |result| result.engine_steps);
+    Ok(Reproduction {
+        artefacts,
+        summary,
+        engine_steps: study.engine_steps + crawling,
+    })
+}
+
+/// The pulls that pictures show, each in a folder that can be replayed and exported.
+fn pull_records(
+    studied: &Study<'_>,
+    world: &World,
+    study: &TorqueStudy,
+    program: &Program,
+) -> Result<Artefacts, RecordError> {
+    let mut artefacts = Artefacts::new();
+    for (gait, pull) in &study.shown {
+        let file = studied.gait_files.get(&gait.name);
+        let recording = PullRecording {
+            robot: studied.robot,
+            world,
+            gait,
+            file: file.map_or(("", ""), |(file, text)| (file, text)),
+            duration_s: study.showcase_s,
+            pull,
+        };
+        let folder = format!("pulls/{}-{}s", gait.name, study.showcase_s);
+        artefacts.extend(below(&folder, crawl::pull::files(&recording, program)?));
+    }
+    Ok(artefacts)
+}
+
+/// The shorter crawl under the table, likewise.
+fn crawl_record(
+    robot: &LoadedRobot,
+    table: &TableStudy,
+    result: &TableResult,
+    program: &Program,
+) -> Result<Artefacts, RecordError> {
+    let Some(experiment) = result.experiments.first() else {
+        return Ok(Artefacts::new());
+    };
+    let conditions = table.conditions(experiment);
+    let recording = Recording {
+        robot,
+        world: &result.world,
+        gait: &table.gait,
+        conditions: &conditions,
+        crawl: &result.shortest,
+        summary: &experiment.ours,
+    };
+    let files = crawl::record::numbers(&recording, Command::ReproduceCrawl, program)?;
+    let folder = format!("crawls/table-{}-cycles", experiment.published.cycles);
+    Ok(below(&folder, files))
+}
+
+/// The same files in a folder.
+fn below(folder: &str, files: Artefacts) -> Artefacts {
+    let named = files.into_iter();
+    named
+        .map(|(name, bytes)| (format!("{folder}/{name}"), bytes))
+        .collect()
+}

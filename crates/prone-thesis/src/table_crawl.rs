@@ -1,0 +1,170 @@
+//! The two experiments of the original under its table, crawled again in simulation.
+
+use std::borrow::Cow;
+
+use serde::{Deserialize, Serialize};
+
+use prone::crawl::Straight;
+use prone::gait::cycle::{CycleError, TimeScale};
+use prone::scene::Scene;
+use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, Detail, End};
+use prone_sim::{LoadedRobot, World, WorldError};
+use prone::regime::Regime;
+
+use prone_study::crawl::{Conditions, CrawlSummary, GaitSource, summary};
+use crate::published::{TABLE_CRAWLS, TableCrawl};
+use RUNINFO::TableInfo;
+use crate::torque_study::Observer;
+
+/// How the published figures came about.
+const PUBLISHED_BY: &str = "on the real robot, distance and time as printed";
+
+/// How ours came about.
+const OURS_BY: &str = "in simulation, displacement of the trunk's frame; at the gait's own 3 s a \
+                       cycle: the 2.3 s of the second experiment would be too fast for a shoulder \
+                       on our way back";
+
+/// What is crawled, and where.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TableStudy {
+    /// The cycle.
+    pub gait: GaitSource,
+    /// The table.
+    pub scene: Scene,
+    /// The text of its file.
+    pub scene_text: String,
+}
+
+/// One experiment, ours beside the published one.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TableExperiment {
+    /// From 1.
+    pub experiment: usize,
+    /// What was published.
+    pub published: TableCrawl,
+    /// How that was obtained.
+    pub published_obtained: Cow<'static, str>,
+    /// What our simulation does.
+    pub ours: CrawlSummary,
+    /// How that was obtained.
+    pub ours_obtained: Cow<'static, str>,
+}
+
+/// Both experiments.
+pub(crate) struct TableResult {
+    pub(crate) world: World,
+    pub(crate) experiments: Vec<TableExperiment>,
+    /// The shorter one, with rows.
+    pub(crate) shortest: Crawl,
+    /// The longer one, with rows.
+    pub(crate) longest: Crawl,
+    pub(crate) engine_steps: usize,
+}
+
+/// Why there is no result.
+#[derive(Debug, thiserror::Error)]
+pub enum TableError {
+    /// The table cannot be built.
+    #[error(transparent)]
+    World(#[from] WorldError),
+    /// The cycle does not fit the robot.
+    #[error(transparent)]
+    Cycle(#[from] CycleError),
+    /// The crawl has no record.
+    #[error(transparent)]
+    Crawl(#[from] CrawlError),
+}
+
+/// Simulates both, one after the other.
+pub(crate) fn run(
+    robot: &LoadedRobot,
+    study: &TableStudy,
+    observer: &dyn Observer,
+) -> Result<TableResult, TableError> {
+    let world = World::in_scene(robot, Regime::LOCOMOTION, &study.scene)?;
+    let [short, long] = TABLE_CRAWLS;
+    let (first, shortest) = experiment(&world, study, 1, short, observer)?;
+    let (second, longest) = experiment(&world, study, 2, long, observer)?;
+    Ok(TableResult {
+        engine_steps: shortest.engine_steps + longest.engine_steps,
+        experiments: vec![first, second],
+        shortest,
+        longest,
+        world,
+    })
+}
+
+fn experiment(
+    world: &World,
+    study: &TableStudy,
+    number: usize,
+    published: TableCrawl,
+    observer: &dyn Observer,
+) -> Result<(TableExperiment, Crawl), TableError> {
+    let plan = CrawlPlan {
+        cycles: vec![study.gait.cycle.clone()],
+        scale: TimeScale::ONE,
+        end: End::Cycles(published.cycles),
+        offsets: None,
+        imu_seed: None,
+        detail: Detail::Rows,
+    };
+    let stopped = || observer.stop();
+    let crawl = crawl::run_unless(&stopped, world, &plan, Straight::default())?;
+    let ours = summary::of(world, &study.gait.cycle, TimeScale::ONE, &crawl, None)?;
+    observer.phase_done();
+    let experiment = TableExperiment {
+        experiment: number,
+        published,
+        published_obtained: PUBLISHED_BY.into(),
+        ours,
+        ours_obtained: OURS_BY.into(),
+    };
+    Ok((experiment, crawl))
+}
+
+impl TableStudy {
+    /// What is crawled and where, for `run.json` and the report.
+    pub(crate) fn info(&self) -> TableInfo {
+        let regime = Regime::LOCOMOTION;
+        TableInfo {
+            gait: self.gait.cycle.pull.name.clone(),
+            description: self.gait.cycle.pull.description.clone(),
+            scene: self.scene.name.clone(),
+            regime: regime.name.into(),
+            friction: regime.friction,
+            impratio: regime.impratio,
+        }
+    }
+
+    /// Under which conditions an experiment was crawled.
+    pub(crate) fn conditions(&self, experiment: &TableExperiment) -> Conditions {
+        Conditions {
+            most_cycles: experiment.published.cycles,
+            until_past_mm: None,
+            time_scale: TimeScale::ONE.value(),
+            steering: "none",
+            turn_command_deg: 0.0,
+            heading_deg: None,
+            joint_offset_deg: 0.0,
+            seed: None,
+            joint_offsets_rad: Vec::new(),
+            scene_text: Some(self.scene_text.clone()),
+            uphill: None,
+        }
+    }
+}
+
+impl TableExperiment {
+    /// With what it touched what, in words.
+    pub fn touched(&self) -> String {
+        if self.ours.contacts.is_empty() {
+            return "touched nothing".to_owned();
+        }
+        let touched = self.ours.contacts.iter();
+        let parts: Vec<String> = touched
+            .map(|contact| format!("{} with {}", contact.obstacle, contact.body))
+            .collect();
+        format!("touched {}", parts.join(", "))
+    }
+}

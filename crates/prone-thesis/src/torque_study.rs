@@ -1,0 +1,237 @@
+//! The published torque study: closed-chain phases at several durations, simulated in parallel.
+
+mod plan;
+
+use rayon::prelude::*;
+
+use prone::cost::{CostError, squared_torque_integral};
+use prone::gait::{CheckedTrajectory, Gait, PhaseDuration, TrajectoryError};
+use prone::mapping::MappingVariant;
+use prone::robot::{JointAngles, Robot};
+use prone_sim::World;
+use prone_sim::pull::{self, Keep, Pull, PullError, Start};
+
+use crate::published;
+use prone_record::pulls::{
+    ChainRecord, ChainSample, ClampRecord, CostRecord, PullRecord, PullRow, RunRecord,
+};
+
+pub use plan::{Plan, PlanError};
+
+/// Instants at which pictures of a pull are taken.
+pub const PICTURES: usize = 5;
+
+/// Samples of a planned chain: 1 % of the phase apart.
+const CHAIN_INTERVALS: usize = 100;
+
+/// Is told how a study goes, from many threads.
+pub trait Observer: Sync {
+    /// One more phase has been simulated.
+    fn phase_done(&self);
+    /// Whether to begin no further phase.
+    fn stop(&self) -> bool;
+}
+
+/// What came out.
+#[derive(Debug)]
+pub struct TorqueStudy {
+    /// Every gait at every duration.
+    pub pulls: Vec<PullRecord>,
+    /// What else was measured in each of [`TorqueStudy::pulls`].
+    pub runs: Vec<RunRecord>,
+    /// The planned chain of each gait.
+    pub chains: Vec<ChainRecord>,
+    /// Joints stopped at their limits, by gait.
+    pub clamps: Vec<ClampRecord>,
+    /// Costs in the order of the pulls.
+    pub costs: Vec<CostRecord>,
+    /// Costs of the same gaits under the mapping `exact`, at the showcase duration.
+    pub exact_costs: Vec<CostRecord>,
+    /// Each gait at the showcase duration, with what pictures and replay show.
+    pub shown: Vec<(Gait, Pull)>,
+    /// The duration that pictures and the contact story show.
+    pub showcase_s: f64,
+    /// Engine steps done in all.
+    pub engine_steps: usize,
+}
+
+/// Why a study has no result.
+#[derive(Debug, thiserror::Error)]
+pub enum StudyError {
+    /// A phase could not be run.
+    #[error(transparent)]
+    Pull(#[from] PullError),
+    /// A gait has no trajectory.
+    #[error(transparent)]
+    Trajectory(#[from] TrajectoryError),
+    /// A record cannot be priced.
+    #[error("gait {gait} at {duration_s} s: {source}")]
+    Cost {
+        /// The gait's name.
+        gait: String,
+        /// Duration of the phase, s.
+        duration_s: f64,
+        /// What is wrong with the record.
+        source: CostError,
+    },
+    /// The user asked to stop.
+    #[error("stopped before the end; nothing was written")]
+    Stopped,
+}
+
+/// One phase to simulate.
+struct Job {
+    gait: Gait,
+    duration: PhaseDuration,
+    /// Whether it belongs to the study proper, not to the comparison of mappings.
+    proper: bool,
+    /// Whether it is shown.
+    showcase: bool,
+}
+
+impl Job {
+    const fn keep(&self) -> Keep {
+        if self.showcase {
+            Keep::Shown { pictures: PICTURES }
+        } else {
+            Keep::Rows
+        }
+    }
+}
+
+/// Runs the study on the current rayon pool.
+///
+/// # Errors
+/// [`StudyError`].
+pub fn run(world: &World, plan: &Plan, observer: &dyn Observer) -> Result<TorqueStudy, StudyError> {
+    let showcase = plan.showcase;
+    let jobs = jobs(plan);
+    let results: Vec<Result<Pull, StudyError>> = jobs
+        .par_iter()
+        .with_max_len(1)
+        .map(|job| {
+            if observer.stop() {
+                return Err(StudyError::Stopped);
+            }
+            let pull = pull::run(world, &job.gait, job.duration, Start::Recorded, job.keep())?;
+            observer.phase_done();
+            Ok(pull)
+        })
+        .collect();
+
+    let mut study = TorqueStudy {
+        pulls: Vec::new(),
+        runs: Vec::new(),
+        chains: Vec::new(),
+        clamps: Vec::new(),
+        costs: Vec::new(),
+        exact_costs: Vec::new(),
+        shown: Vec::new(),
+        showcase_s: showcase.seconds(),
+        engine_steps: 0,
+    };
+    for gait in &plan.gaits {
+        let trajectory = plan_chain(world, gait, showcase)?;
+        study.chains.push(chain_record(gait, &trajectory));
+        study
+            .clamps
+            .extend(clamp_records(world.robot(), gait, &trajectory));
+    }
+    for (job, result) in jobs.iter().zip(results) {
+        let pull = result?;
+        study.engine_steps += pull.engine_steps;
+        let record = pull_record(world.robot(), &job.gait, job.duration, &pull);
+        let cost = cost_record(&record)?;
+        if job.proper {
+            study.costs.push(cost);
+            study.runs.push(run_record(job, &pull));
+            study.pulls.push(record);
+            if job.showcase {
+                study.shown.push((job.gait.clone(), pull));
+            }
+        } else {
+            study.exact_costs.push(cost);
+        }
+    }
+    Ok(study)
+}
+
+fn jobs(plan: &Plan) -> Vec<Job> {
+    let mut jobs = Vec::new();
+    for gait in &plan.gaits {
+        for &duration in &plan.durations {
+            jobs.push(Job {
+                gait: gait.clone(),
+                duration,
+                proper: true,
+                showcase: duration == plan.showcase,
+            });
+        }
+    }
+    for gait in &plan.gaits {
+        jobs.push(Job {
+            gait: Gait {
+                mapping: MappingVariant::Exact,
+                ..gait.clone()
+            },
+            duration: plan.showcase,
+            proper: false,
+            showcase: false,
+        });
+    }
+    jobs
+}
+
+fn clamp_records<'a>(
+    robot: &'a Robot,
+    gait: &'a Gait,
+    trajectory: &'a CheckedTrajectory,
+) -> impl Iterator<Item = ClampRecord> + 'a {
+    trajectory.clamps().iter().map(|clamp| ClampRecord {
+        gait: gait.name.clone(),
+        joint: robot.joints[clamp.joint.0].name.clone(),
+        samples: clamp.samples,
+        of_samples: trajectory.samples().len(),
+        from_percent: clamp.from * 100.0,
+        to_percent: clamp.to * 100.0,
+        largest_deg: clamp.largest.to_degrees(),
+    })
+}
+
+fn run_record(job: &Job, pull: &Pull) -> RunRecord {
+    let end = pull
+        .rows
+        .last()
+        .map_or(pull.start, |row| row.ground_from_root);
+    let travel = end.origin().metres() - pull.start.origin().metres();
+    let tops = |top: fn(&prone_sim::pull::Row) -> f64| {
+        pull.rows.iter().map(top).fold(f64::NEG_INFINITY, f64::max) * 1e3
+    };
+    RunRecord {
+        gait: job.gait.name.clone(),
+        duration_s: job.duration.seconds(),
+        advance_mm: travel.x * 1e3,
+        lateral_mm: travel.y * 1e3,
+        top_mm: tops(|row| row.top),
+        head_top_mm: tops(|row| row.head_top),
+    }
+}
+
+fn cost_record(pull: &PullRecord) -> Result<CostRecord, StudyError> {
+    let (times, torques): (Vec<_>, Vec<_>) = pull
+        .rows
+        .iter()
+        .map(|row| (row.time_s, row.torque_nm))
+        .unzip();
+    let cost = squared_torque_integral(&times, &torques).map_err(|source| StudyError::Cost {
+        gait: pull.gait.clone(),
+        duration_s: pull.duration_s,
+        source,
+    })?;
+    Ok(CostRecord {
+        gait: pull.gait.clone(),
+        duration_s: pull.duration_s,
+        cost_n2m2s: cost,
+        published_n2m2s: published::cost(&pull.gait, pull.duration_s),
+    })
+}
