@@ -73,11 +73,10 @@ pub(crate) fn check(args: &RobotCheckArgs) -> Result<(), Failure> {
 /// A compiled robot that cannot be used, with the command that writes it anew.
 fn refused(folder: &str, error: &CompiledRobotError) -> Failure {
     let renewal = match error {
-        CompiledRobotError::Stale { .. } | CompiledRobotError::FormatVersion { .. } => {
-            // They name it themselves.
-            String::new()
-        }
-        CompiledRobotError::Read { .. }
+        // It names it itself.
+        CompiledRobotError::Stale { .. } => String::new(),
+        CompiledRobotError::FormatVersion { .. }
+        | CompiledRobotError::Read { .. }
         | CompiledRobotError::Json(_)
         | CompiledRobotError::Format { .. }
         | CompiledRobotError::Violation { .. } => {

@@ -45,7 +45,7 @@ fn a_planted_circle_is_found() {
     let planted = [
         ("", "mod camera;\nmod robot;"),
         ("camera", "mod glass;\nmod light;\nuse light::Studio;"),
-        ("camera::glass", "use super::{Lens, light::{Studio, on}};"),
+        ("camera::glass", "use super::{light::{Studio, on}, Lens};"),
         ("camera::light", "fn on() { crate::robot::stand() }"),
         (
             "robot",
@@ -85,7 +85,11 @@ fn a_re_export_is_followed_through_others_and_through_a_module_of_another_name()
     let planted = [
         ("", "mod camera;\nmod robot;\nuse robot as body;"),
         ("camera", "mod glass;\npub(crate) use glass::Lens;"),
-        ("camera::glass", "use crate::{\n    body::arm::lift,\n};"),
+        // What follows nested braces counts too.
+        (
+            "camera::glass",
+            "use crate::{\n    camera::{Lens},\n    body::arm::lift,\n};",
+        ),
         ("robot", "mod arm;\npub use crate::camera::Lens;"),
         ("robot::arm", "use super::Lens;"),
     ];
@@ -250,7 +254,8 @@ fn unfold<'t>(
                     let end = rest.find([',', '}']).unwrap_or(rest.len());
                     rest = rest[end..].strip_prefix(',').unwrap_or(&rest[end..]);
                 }
-                return rest;
+                let behind = rest.trim_start();
+                return behind.strip_prefix('}').unwrap_or(behind);
             }
             _ => break,
         }
@@ -285,7 +290,8 @@ fn resolve(module: &Module, path: &[String], modules: &BTreeMap<Module, Imports>
         let Some((name, behind)) = left.split_first() else {
             break;
         };
-        let Some(import) = modules[&deepest].get(name) else {
+        let import = modules.get(&deepest).and_then(|imports| imports.get(name));
+        let Some(import) = import else {
             break;
         };
         (here, path) = (deepest, [import, behind].concat());

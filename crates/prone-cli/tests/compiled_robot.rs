@@ -105,11 +105,13 @@ fn a_file_goes_over_a_compiled_robot_and_over_nothing_else() {
     for file in ["gait.toml", "other.json", "empty", "bytes"] {
         let before = fs::read(at(file)).unwrap();
         let message = refused(&to(file));
+        let why = match file {
+            "bytes" => "cannot be read, so that it is not overwritten: it is not UTF-8 text",
+            _ => "is no compiled robot: it is not overwritten",
+        };
         assert_eq!(
             message,
-            format!(
-                "error: {file} is there already and is no compiled robot: it is not overwritten\n"
-            )
+            format!("error: {file} is there already and {why}\n")
         );
         assert_eq!(fs::read(at(file)).unwrap(), before);
     }
@@ -179,5 +181,23 @@ fn checking_a_robot_fails_when_its_compiled_file_is_stale() {
         "{message}"
     );
     let renewal = "; `prone robot compile robot` writes it anew\n";
+    assert!(message.ends_with(renewal), "{message}");
+
+    // One that is broken, in its own place, is written anew whether the place is named or not.
+    said(&prone(
+        home.path(),
+        &["compile", "robot", "--out", "robot/robot.compiled.json"],
+    ));
+    assert_eq!(state(), (Some(0), String::new(), Some(true)));
+    let place = home.path().join("robot/robot.compiled.json");
+    let text = fs::read_to_string(&place).unwrap();
+    fs::write(
+        &place,
+        text.replacen("\"format_version\": 1", "\"format_version\": 2", 1),
+    )
+    .unwrap();
+    let (code, message, _) = state();
+    assert_eq!(code, Some(1));
+    assert!(message.contains("has version 2 of its format"), "{message}");
     assert!(message.ends_with(renewal), "{message}");
 }

@@ -92,7 +92,7 @@ pub enum CompiledRobotError {
     },
     /// It was written by another build.
     #[error(
-        "{file} has version {found} of its format and this program reads version {FORMAT_VERSION}: `prone robot compile` writes it anew"
+        "{file} has version {found} of its format and this program reads version {FORMAT_VERSION}"
     )]
     FormatVersion {
         /// The file.

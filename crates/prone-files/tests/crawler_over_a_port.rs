@@ -51,6 +51,8 @@ struct FakeRobot {
     commands: usize,
     waits: usize,
     stopped: usize,
+    /// Commands that were on their way when it was stopped.
+    late: usize,
 }
 
 impl FakeRobot {
@@ -66,6 +68,7 @@ impl FakeRobot {
             commands: 0,
             waits: 0,
             stopped: 0,
+            late: 0,
         }
     }
 
@@ -165,6 +168,7 @@ impl Pace for FakeRobot {
 impl Stop for FakeRobot {
     fn stop(&mut self) -> Result<(), PortError> {
         self.stopped += 1;
+        self.late = self.on_the_way.len();
         self.on_the_way.clear();
         Ok(())
     }
@@ -317,6 +321,7 @@ fn delays_and_drops_change_no_plan() {
 fn a_failing_inertial_unit_stops_the_joints_and_says_so() {
     let slope_aware = || SlopeAware::new(Straight::default(), 0.5);
     let faults = Faults {
+        delay: 3,
         inertial_fails: Some(6.0),
         ..Faults::default()
     };
@@ -336,7 +341,12 @@ fn a_failing_inertial_unit_stops_the_joints_and_says_so() {
     );
     assert_eq!((*cycle, gait.as_str()), (2, "low-165"), "{error}");
     assert_eq!(port.stopped, 1);
-    assert!(port.on_the_way.is_empty());
+    // Of what was on its way nothing arrives any more.
+    let held = port.held.clone();
+    let mut port = port;
+    assert!(port.late > 0, "a command was on its way");
+    port.one_tick();
+    assert_eq!(port.held, held);
     // Whoever does not go by it goes on.
     let (_, _, driven) = crawl(faults, &mut Log::default(), Straight::default());
     driven.unwrap();
@@ -369,7 +379,7 @@ fn a_port_of_other_ticks_is_refused_before_anything_moves() {
     let mut port = FakeRobot::new(&robot, JointAngles::zero(&robot), Faults::default());
     let error = drive(&mut port, &mut crawler, &mut Log::default()).unwrap_err();
     assert!(matches!(error, DriveError::Tick { .. }), "{error}");
-    assert_eq!((port.commands, port.waits), (0, 0));
+    assert_eq!((port.commands, port.waits, port.stopped), (0, 0, 1));
 }
 
 /// Whatever comes next goes on from where the crawl has left the joints: here the same robot crawls

@@ -117,7 +117,8 @@ pub trait Pace {
     /// Time now, s, as in [`Senses::time`].
     fn time(&self) -> f64;
 
-    /// Usual time from one [`Pace::wait`] to the next, s.
+    /// Usual time from one [`Pace::wait`] to the next, s. A crawler counts in the same
+    /// ([`crate::crawl::drive`] refuses any other).
     fn tick(&self) -> f64;
 
     /// Returns when the next tick has come: a simulation computes it, a robot is waited for.

@@ -64,7 +64,9 @@ fn place(args: &RobotCompileArgs, loaded: &LoadedRobot) -> Result<PathBuf, Failu
             input.display()
         )));
     }
-    if args.out.is_some() && is_of_another_kind(&out) {
+    let own = Path::new(&files.folder).join(compiled_robot::FILE_NAME);
+    let is_own = !files.read.is_empty() && table_file::same_file(&out, &[own]).is_some();
+    if !is_own && is_of_another_kind(&out)? {
         return Err(Failure::Input(anyhow!(
             "{} is there already and is no compiled robot: it is not overwritten",
             out.display()
@@ -73,11 +75,19 @@ fn place(args: &RobotCompileArgs, loaded: &LoadedRobot) -> Result<PathBuf, Failu
     Ok(out)
 }
 
-/// Whether a regular file is there that is no compiled robot, of any version; one that cannot be read
-/// is none. A device or a pipe has nothing to lose.
-fn is_of_another_kind(path: &Path) -> bool {
-    let text = || text_file::read(path).unwrap_or_default();
-    path.is_file() && !compiled_robot::is_compiled_robot(&text())
+/// Whether a regular file is there that is no compiled robot, of any version. A device or a pipe has
+/// nothing to lose.
+fn is_of_another_kind(path: &Path) -> Result<bool, Failure> {
+    if !path.is_file() {
+        return Ok(false);
+    }
+    let text = text_file::read(path).map_err(|error| {
+        Failure::Input(anyhow!(
+            "{} is there already and cannot be read, so that it is not overwritten: {error}",
+            path.display()
+        ))
+    })?;
+    Ok(!compiled_robot::is_compiled_robot(&text))
 }
 
 fn say(args: &RobotCompileArgs, file: &Path, compiled: &CompiledRobot) -> Result<(), Failure> {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::gait::cycle::{CycleError, Easing, RecoveryPath};
-use crate::port::{Knot, Segment};
+use crate::port::{JointCommand, Knot, Segment};
 use crate::robot::JointAngles;
 
 use super::pilot::Stage;
@@ -94,8 +94,18 @@ impl Course {
         }
     }
 
-    /// All of it, with a knot at each waypoint and no two knots farther apart than `every`, s.
-    pub(super) fn segment(&self, every: f64) -> Segment {
+    /// All of it as one command: a path in time, or the posture that is held.
+    pub(super) fn whole(&self, every: f64) -> JointCommand {
+        match self {
+            Self::Rest { posture, .. } => JointCommand::SetPoint(posture.clone()),
+            Self::Way { .. } | Self::Pull(_) | Self::Recovery { .. } => {
+                JointCommand::Segment(self.segment(every))
+            }
+        }
+    }
+
+    /// A path in time with a knot at each waypoint and no two knots farther apart than `every`, s.
+    fn segment(&self, every: f64) -> Segment {
         let ends = match self {
             Self::Recovery { path, .. } => path.ends().collect(),
             Self::Way { .. } | Self::Rest { .. } | Self::Pull(_) => vec![self.seconds()],

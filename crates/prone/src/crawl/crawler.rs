@@ -13,9 +13,9 @@ use super::planned::{FirstPose, PlanError, Planned};
 use super::program::{Begin, Ended, Event, Halt, Program};
 use super::timing::{Delivery, Timing};
 
-/// How many ticks in a row may come at one instant. A port that waits at least a tick between two
-/// looks has none.
-const MOST_FROZEN: usize = 100;
+/// How many ticks in a row may always come at one instant: a backend may repeat its last message.
+/// More may, as long as they last no longer than a gap may.
+const FEW_FROZEN: usize = 10;
 
 /// Shortest way to the first posture, s: nothing begins with a jerk.
 const SHORTEST_WAY: f64 = 0.5;
@@ -46,6 +46,8 @@ pub struct Crawler<P> {
 #[derive(Debug, Clone)]
 enum Doing {
     Nothing,
+    /// Being held where the robot lies, for a tick, so that the way begins there; then that way.
+    Held(Activity, Box<Course>),
     /// The way to the first posture.
     Way(Activity),
     /// The rest in it.
@@ -114,7 +116,11 @@ impl<P: Pilot> Crawler<P> {
         match &self.doing {
             Doing::Ended(_) => return Ok(JointCommand::Continue),
             Doing::Failed(error) => return Err((**error).clone()),
-            Doing::Nothing | Doing::Way(_) | Doing::Rest(_) | Doing::Phase(..) => {}
+            Doing::Nothing
+            | Doing::Held(..)
+            | Doing::Way(_)
+            | Doing::Rest(_)
+            | Doing::Phase(..) => {}
         }
         let ticked = self.go(senses);
         if let Err(error) = &ticked {
@@ -127,10 +133,14 @@ impl<P: Pilot> Crawler<P> {
         self.check(senses)?;
         self.feel(senses)?;
         let before = matches!(self.doing, Doing::Nothing);
-        if let Some(halt) = self.halt
-            && (before || halt == Halt::AtOnce)
-        {
-            return Ok(self.halt_here(halt, senses));
+        match self.halt {
+            // Nothing has been commanded: the robot keeps what it was told before.
+            Some(halt) if before => {
+                self.end(Ended::Halted(halt));
+                return Ok(JointCommand::Continue);
+            }
+            Some(Halt::AtOnce) => return Ok(self.halt_here(senses)),
+            Some(Halt::AfterCycle) | None => {}
         }
         if before {
             self.begin(senses)?;
@@ -162,6 +172,7 @@ impl<P: Pilot> Crawler<P> {
                 last && self.program.timing.ticks(time - it.began) >= it.ticks
             }
             Doing::Nothing
+            | Doing::Held(..)
             | Doing::Way(_)
             | Doing::Rest(_)
             | Doing::Ended(_)
@@ -204,6 +215,7 @@ impl<P: Pilot> Crawler<P> {
         match self.doing {
             Doing::Ended(ended) => Some(ended),
             Doing::Nothing
+            | Doing::Held(..)
             | Doing::Way(_)
             | Doing::Rest(_)
             | Doing::Phase(..)
@@ -287,7 +299,8 @@ impl<P: Pilot> Crawler<P> {
     /// A clock may stand still for a moment, as a pause does, but not for ever.
     fn same_instant(&mut self, time_s: f64) -> Result<(), CrawlerError> {
         self.frozen += 1;
-        if self.frozen <= MOST_FROZEN {
+        let lasts = self.frozen as f64 * self.program.timing.tick();
+        if self.frozen <= FEW_FROZEN || lasts <= self.program.timing.longest_gap() {
             return Ok(());
         }
         let (cycle, gait) = self.at();
@@ -306,8 +319,23 @@ impl<P: Pilot> Crawler<P> {
                 let to = self.planned.checked.extension().clone();
                 let seconds = way_seconds(&self.robot, &senses.angles, &to, speed);
                 let from = self.within_stops(&senses.angles);
-                let course = Course::Way { from, to, seconds };
-                self.doing = Doing::Way(self.activity_of(course, senses.time));
+                let way = Course::Way {
+                    from: from.clone(),
+                    to,
+                    seconds,
+                };
+                let now = senses.time;
+                self.doing = match self.program.timing.delivery() {
+                    Delivery::SetPoints { .. } => Doing::Way(self.activity_of(way, now)),
+                    // A path begins where the joints were last sent, which nobody knows here.
+                    Delivery::Segments { .. } => {
+                        let here = Course::Rest {
+                            posture: from,
+                            seconds: self.program.timing.tick(),
+                        };
+                        Doing::Held(self.activity_of(here, now), Box::new(way))
+                    }
+                };
                 Ok(())
             }
             Begin::InExtension { rest } => self.rest(rest, senses.time),
@@ -355,10 +383,15 @@ impl<P: Pilot> Crawler<P> {
 
     /// From an activity that is over to the next one.
     fn go_on(&mut self, senses: &Senses) -> Result<(), CrawlerError> {
-        match self.doing {
+        match &self.doing {
+            Doing::Held(_, way) => {
+                let way = (**way).clone();
+                self.doing = Doing::Way(self.activity_of(way, senses.time));
+                Ok(())
+            }
             Doing::Way(_) => self.rest(self.program.begin.rest(), senses.time),
             Doing::Rest(_) => self.begin_cycle(senses.time),
-            Doing::Phase(index, _) => self.end_phase(index, senses),
+            Doing::Phase(index, _) => self.end_phase(*index, senses),
             Doing::Nothing | Doing::Ended(_) | Doing::Failed(_) => Ok(()),
         }
     }
@@ -451,8 +484,7 @@ impl<P: Pilot> Crawler<P> {
                     return JointCommand::Continue;
                 }
                 let end = it.course.posture(it.course.seconds());
-                let command = JointCommand::Segment(it.course.segment(every));
-                (command, end, stage)
+                (it.course.whole(every), end, stage)
             }
         };
         self.commanded = Some(commanded);
@@ -460,19 +492,17 @@ impl<P: Pilot> Crawler<P> {
         command
     }
 
-    /// Holds what was commanded last; in the middle of a path in time, where that has come to; before
-    /// the first command, where the joints are measured, within their stops.
-    fn halt_here(&mut self, halt: Halt, senses: &Senses) -> JointCommand {
+    /// Holds what was commanded last; in the middle of a path in time, where that has come to.
+    fn halt_here(&mut self, senses: &Senses) -> JointCommand {
         let posture = match (self.program.timing.delivery(), self.activity()) {
-            (Delivery::Segments { .. }, Some(it)) => it.course.posture(senses.time - it.began),
-            _ => match &self.commanded {
-                Some(commanded) => commanded.clone(),
-                None => self.within_stops(&senses.angles),
-            },
+            (Delivery::Segments { .. }, Some(it)) => {
+                Some(it.course.posture(senses.time - it.began))
+            }
+            _ => self.commanded.clone(),
         };
-        self.commanded = Some(posture.clone());
-        self.end(Ended::Halted(halt));
-        JointCommand::SetPoint(posture)
+        self.commanded.clone_from(&posture);
+        self.end(Ended::Halted(Halt::AtOnce));
+        posture.map_or(JointCommand::Continue, JointCommand::SetPoint)
     }
 
     fn end(&mut self, ended: Ended) {
@@ -492,14 +522,14 @@ impl<P: Pilot> Crawler<P> {
 
     const fn activity(&self) -> Option<&Activity> {
         match &self.doing {
-            Doing::Way(it) | Doing::Rest(it) | Doing::Phase(_, it) => Some(it),
+            Doing::Held(it, _) | Doing::Way(it) | Doing::Rest(it) | Doing::Phase(_, it) => Some(it),
             Doing::Nothing | Doing::Ended(_) | Doing::Failed(_) => None,
         }
     }
 
     const fn activity_mut(&mut self) -> Option<&mut Activity> {
         match &mut self.doing {
-            Doing::Way(it) | Doing::Rest(it) | Doing::Phase(_, it) => Some(it),
+            Doing::Held(it, _) | Doing::Way(it) | Doing::Rest(it) | Doing::Phase(_, it) => Some(it),
             Doing::Nothing | Doing::Ended(_) | Doing::Failed(_) => None,
         }
     }

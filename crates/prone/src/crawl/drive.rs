@@ -65,10 +65,11 @@ where
     P: Pilot,
 {
     let (port_s, crawler_s) = (port.tick(), crawler.timing().tick());
-    if (port_s - crawler_s).abs() > SAME_TICK * crawler_s {
-        return Err(DriveError::Tick { crawler_s, port_s });
-    }
-    let driven = follow(port, crawler, watch);
+    let driven = if (port_s - crawler_s).abs() <= SAME_TICK * crawler_s {
+        follow(port, crawler, watch)
+    } else {
+        Err(DriveError::Tick { crawler_s, port_s })
+    };
     if driven.is_err() {
         // The error that is returned says more than one of stopping could.
         let _ = port.stop();

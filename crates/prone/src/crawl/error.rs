@@ -9,9 +9,9 @@ use super::pilot::PilotError;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CrawlerError {
     /// The pilot, or the beginning, asks for a cycle that is not there.
-    #[error("there is no cycle {asked}: there are {cycles}")]
+    #[error("cycle {} of the program was asked for, and it has {cycles}", asked + 1)]
     NoCycle {
-        /// Its index.
+        /// Its index, from 0; the message counts from 1.
         asked: usize,
         /// How many there are.
         cycles: usize,
@@ -48,7 +48,9 @@ pub enum CrawlerError {
         source: PilotError,
     },
     /// The senses' clock goes back, or is none.
-    #[error("in cycle {cycle} ({gait}): after {before_s} s came {time_s} s")]
+    #[error(
+        "in cycle {cycle} ({gait}): the senses' clock says {time_s} s, which does not follow {before_s} s"
+    )]
     Time {
         /// From 1.
         cycle: usize,

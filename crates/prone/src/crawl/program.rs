@@ -47,7 +47,7 @@ pub enum Begin {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Halt {
     /// When the cycle is over: the robot is in an extension again. Before the first cycle it ends in
-    /// the first extension, and before the first tick at that tick.
+    /// the first extension, and before the first tick at that tick, which commands nothing.
     AfterCycle,
     /// At the next tick, wherever the joints are then.
     AtOnce,

@@ -60,15 +60,15 @@ const EXACTLY: f64 = 1e-6;
 
 impl Timing {
     /// Shortest and longest tick, s.
-    pub const TICK: (f64, f64) = (1e-5, 1.0);
+    pub const TICK: (f64, f64) = (1e-5, 0.1);
     /// Longest time between two commands, s.
     pub const SLOWEST: f64 = 1.0;
     /// Shortest and longest time between two knots of a segment, s. It does not depend on the tick:
     /// the robot goes from knot to knot by itself.
     pub const KNOTS: (f64, f64) = (1e-3, 0.1);
     /// For how long nothing may be felt, s, where ticks are short: longer than a busy controller is
-    /// away, short against a pull of seconds.
-    const LONGEST_GAP: f64 = 0.2;
+    /// away, and so short that what is made up for afterwards is a step that a gate can judge.
+    const LONGEST_GAP: f64 = 0.1;
 
     /// A crawler that is asked about every `tick`, s.
     ///
