@@ -4,7 +4,8 @@ use std::io::Write as _;
 
 use anyhow::anyhow;
 
-use prone_study::optimize::pricer::{self, Aim, Priced};
+use prone_record::gait_search::Priced;
+use prone_study::optimize::pricer::{self, Aim};
 
 use crate::Failure;
 use crate::args::optimize::CostArgs;

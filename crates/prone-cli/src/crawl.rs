@@ -10,12 +10,13 @@ use anyhow::anyhow;
 use serde_json::json;
 
 use prone::crawl::CrawlerError;
+use prone_record::crawl_summary::CrawlSummary;
+use prone_record::output;
+use prone_record::program::Program;
 use prone_sim::World;
 use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, Detail};
 use prone_study::crawl::record::{self, Recording};
-use prone_study::crawl::{CrawlSummary, summary};
-use prone_record::output;
-use RUNINFO::Program;
+use prone_study::crawl::summary;
 
 use crate::args::{CrawlCommand, CrawlRunArgs};
 use crate::lock::Lock;
@@ -134,7 +135,7 @@ fn files(
         summary,
     };
     let mut artefacts = pool
-        .install(|| record::files(&recording, &program))
+        .install(|| record::files(&recording, &program, &prone_thesis::published::crawl_range))
         .map_err(Failure::work)?;
     let timing = json!({
         "wall_s": started.elapsed().as_secs_f64(),

@@ -10,10 +10,11 @@ use serde_json::{Value, json};
 
 use prone::gait::cycle::Cycle;
 use prone_files::defaults::CycleDefaults;
+use prone_record::frontier::CycleObjective;
 use prone_sim::LoadedRobot;
 use prone_study::cycle_search::frontier::{self, Hunt};
 use prone_study::cycle_search::passage::too_low;
-use prone_study::cycle_search::price::{Aim, CycleObjective, Merge};
+use prone_study::cycle_search::price::{Aim, Merge};
 use prone_study::cycle_search::rules::CycleRules;
 use prone_study::cycle_search::setting::Setting;
 use prone_study::cycle_search::settings;

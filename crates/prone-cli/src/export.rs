@@ -10,11 +10,12 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 
 use prone::gait::cycle::{CheckedCycle, TimeScale};
-use prone_files::cycle_file;
-use prone_sim::World;
 use prone::regime::Regime;
-use prone_study::export::{key_frames, numpy, ros_log, table, timeline, urdf};
+use prone_files::cycle_file;
 use prone_record::recorded::{Command, Recorded, RecordedRun};
+use prone_report::export::{key_frames, numpy, ros_log, table, timeline};
+use prone_sim::World;
+use prone_study::export::urdf;
 
 use crate::args::{ExportArgs, Format};
 use crate::{Failure, interrupt, record_folder, table_file};

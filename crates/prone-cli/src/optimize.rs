@@ -11,14 +11,15 @@ use anyhow::anyhow;
 use serde_json::{Value, json};
 
 use prone::gait::Gait;
-use prone_sim::World;
 use prone::regime::Regime;
-use prone_study::optimize::confirm::{self, ConfirmError, ConfirmPlan, Confirmation};
+use prone_record::gait_search::Confirmation;
+use prone_record::output;
+use prone_record::search::{Search, SearchEnd, Solver};
+use prone_sim::World;
+use prone_study::optimize::confirm::{self, ConfirmError, ConfirmPlan};
 use prone_study::optimize::form::{Ends, GaitForm, Parametrisation};
 use prone_study::optimize::outcome::{self, Hunt};
 use prone_study::optimize::pricer::{self, Aim};
-use prone_record::search::{Search, SearchEnd, Solver};
-use prone_record::output;
 
 use self::files::pretty;
 use crate::args::optimize::{EndsName, OptimizeArgs, SolverName};

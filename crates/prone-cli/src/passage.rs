@@ -7,13 +7,14 @@ use anyhow::anyhow;
 
 use prone::gait::cycle::Cycle;
 use prone_files::cycle_file;
+use prone_record::frontier::CycleObjective;
+use prone_record::search::{Search, SearchEnd};
 use prone_sim::LoadedRobot;
 use prone_study::cycle_search::frontier::{self, Hunt};
 use prone_study::cycle_search::passage::{Passage, Tried};
-use prone_study::cycle_search::price::{Aim, CycleObjective, Merge};
+use prone_study::cycle_search::price::{Aim, Merge};
 use prone_study::cycle_search::setting::Setting;
 use prone_study::cycle_search::settings;
-use prone_record::search::{Search, SearchEnd};
 
 use crate::args::passage::UnderArgs;
 use crate::gait::{find_cycle, is_shipped};

@@ -5,15 +5,15 @@ use std::path::Path;
 use anyhow::anyhow;
 use serde_json::{Value, json};
 
+use prone::cost::objective::Objective;
 use prone::cost::published::PublishedRules;
 use prone::gait::{Gait, PhaseDuration};
+use prone::regime::Regime;
 use prone::torque_map::{self, TorqueMap};
 use prone_files::defaults::PullDefaults;
 use prone_files::gaits::Gaits;
 use prone_files::text_file;
 use prone_sim::{LoadedRobot, World};
-use prone::regime::Regime;
-use prone::cost::objective::Objective;
 use prone_study::optimize::pricer::{self, Aim, Source, Terms};
 use prone_study::optimize::pricing::{self, Share};
 use prone_study::optimize::rules::{self, ChainRules, Clearance};

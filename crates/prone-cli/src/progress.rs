@@ -5,10 +5,10 @@ use std::path::PathBuf;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use prone_study::export::film;
 use prone_record::search::Search;
+use prone_study::export::film;
+use prone_study::pulls::Observer;
 use prone_study::torque_map::build;
-use prone_thesis::torque_study::Observer;
 
 use crate::Failure;
 use crate::interrupt;

@@ -8,8 +8,9 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 
 use prone_record::output;
+use prone_record::program::Program;
 use prone_report::report::{PAGE_FILE, Report, ReportError, Source};
-use RUNINFO::Program;
+use prone_thesis::chapter::Thesis;
 
 use crate::args::ReportArgs;
 use crate::{Failure, interrupt, record_folder, table_file};
@@ -34,7 +35,9 @@ pub(crate) fn run(args: &ReportArgs) -> Result<(), Failure> {
         .num_threads(args.threads.map_or(0, usize::from))
         .build()
         .map_err(|error| Failure::Work(anyhow!("cannot start worker threads: {error}")))?;
-    let report = pool.install(|| Report::of(&sources)).map_err(failure)?;
+    let report = pool
+        .install(|| Report::of(&sources, &Thesis))
+        .map_err(failure)?;
     match place {
         Place::Page(file) => interrupt::publish(|| {
             table_file::write(file, report.html.as_bytes())
@@ -183,6 +186,7 @@ fn print(args: &ReportArgs, report: &Report, page: &Path) -> Result<(), Failure>
     for missing in &numbers.missing {
         let made_by = missing
             .command
+            .as_deref()
             .unwrap_or("a robot on the wire, not driven yet");
         writeln!(out, "  no figure {}: {made_by}", missing.number)?;
     }

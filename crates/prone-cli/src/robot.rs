@@ -9,10 +9,10 @@ use anyhow::anyhow;
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use prone::regime::Regime;
 use prone_files::compiled_robot::CompiledRobotError;
 use prone_files::shipped;
 use prone_sim::{LoadedRobot, RobotFiles, World};
-use prone::regime::Regime;
 use prone_study::robot_sheet::{self, ChainSheet, RobotSheet};
 
 use crate::Failure;

@@ -10,7 +10,7 @@ use anyhow::anyhow;
 
 use prone::torque_map::{RecordedMap, parse_recorded};
 use prone_files::text_file;
-use RUNINFO::Program;
+use prone_record::program::Program;
 
 use crate::Failure;
 use crate::args::TorqueMapCommand;

@@ -1,18 +1,18 @@
 //! The tables of a record folder as CSV.
 
-use prone::crawl::Stage;
 use prone::frames::{Ground, Root, Transform};
 use prone::robot::{BodyPart, ContactGroup, JointAngles, Robot, Tops};
+use prone::scene::{ContactForce, Obstacle, obstacle_name};
 use prone::steering::Bearing;
-use prone_sim::crawl::Row;
-use prone_sim::{ContactForce, World, pull};
 
-use super::obstacle_name;
-use super::summary::CrawlSummary;
+use crate::crawl_summary::CrawlSummary;
 use crate::tables::{finish, number};
 
 /// `cycles.csv`.
-pub(super) fn cycles(summary: &CrawlSummary) -> Result<Vec<u8>, csv::Error> {
+///
+/// # Errors
+/// [`csv::Error`], which writing to memory does not produce.
+pub fn cycles(summary: &CrawlSummary) -> Result<Vec<u8>, csv::Error> {
     let mut table = csv::Writer::from_writer(Vec::new());
     let mut header: Vec<String> = [
         "cycle",
@@ -65,60 +65,34 @@ pub(super) fn cycles(summary: &CrawlSummary) -> Result<Vec<u8>, csv::Error> {
 }
 
 /// One instant of a crawl or a pull.
-pub(super) struct Instant<'a> {
-    time: f64,
-    cycle: usize,
+pub struct Instant<'a> {
+    /// Since the first pull began, s.
+    pub time: f64,
+    /// From 0.
+    pub cycle: usize,
     /// Phase of the pull; nothing in a recovery.
-    s: Option<f64>,
-    command: &'a JointAngles,
-    angles: &'a JointAngles,
-    actuator_torque: &'a [f64],
-    contact: [f64; 4],
-    forces: &'a [ContactForce],
-    ground_from_root: Transform<Ground, Root>,
-    tops: Tops,
-}
-
-impl<'a> Instant<'a> {
-    /// Of a crawl.
-    pub(super) fn of(row: &'a Row) -> Self {
-        Self {
-            time: row.time,
-            cycle: row.cycle,
-            s: match row.stage {
-                Stage::Pull { s, .. } => Some(s),
-                Stage::Recovery => None,
-            },
-            command: &row.command,
-            angles: &row.angles,
-            actuator_torque: &row.actuator_torque,
-            contact: row.contact,
-            forces: &row.forces,
-            ground_from_root: row.ground_from_root,
-            tops: row.tops,
-        }
-    }
-
-    /// Of a pull, where what is shown was kept.
-    pub(super) fn of_pull(row: &'a pull::Row) -> Option<Self> {
-        let shown = row.shown.as_ref()?;
-        Some(Self {
-            time: row.time,
-            cycle: 0,
-            s: Some(shown.s),
-            command: &row.command,
-            angles: &row.angles,
-            actuator_torque: &row.actuator_torque,
-            contact: row.contact,
-            forces: &shown.forces,
-            ground_from_root: row.ground_from_root,
-            tops: shown.tops,
-        })
-    }
+    pub s: Option<f64>,
+    /// Commanded joint angles, rad.
+    pub command: &'a JointAngles,
+    /// Measured joint angles, rad.
+    pub angles: &'a JointAngles,
+    /// **Actuator torque** of each joint about its axis, mean over the row, N·m.
+    pub actuator_torque: &'a [f64],
+    /// Normal force of the ground by [`ContactGroup::ALL`], mean over the row, N.
+    pub contact: [f64; 4],
+    /// What the world does to the robot now, contact by contact.
+    pub forces: &'a [ContactForce],
+    /// Pose of the root.
+    pub ground_from_root: Transform<Ground, Root>,
+    /// Highest points.
+    pub tops: Tops,
 }
 
 /// `rows.csv`; yaw and what is lateral are seen from `start`.
-pub(super) fn rows(
+///
+/// # Errors
+/// [`csv::Error`], which writing to memory does not produce.
+pub fn rows(
     robot: &Robot,
     start: Bearing,
     instants: &[Instant<'_>],
@@ -190,7 +164,14 @@ fn tops() -> [String; 5] {
 }
 
 /// `contacts.csv`.
-pub(super) fn contacts(world: &World, instants: &[Instant<'_>]) -> Result<Vec<u8>, csv::Error> {
+///
+/// # Errors
+/// [`csv::Error`], which writing to memory does not produce.
+pub fn contacts(
+    robot: &Robot,
+    obstacles: &[Obstacle],
+    instants: &[Instant<'_>],
+) -> Result<Vec<u8>, csv::Error> {
     let mut table = csv::Writer::from_writer(Vec::new());
     table.write_record([
         "time_s", "body", "with", "x_mm", "y_mm", "z_mm", "fx_n", "fy_n", "fz_n",
@@ -199,11 +180,11 @@ pub(super) fn contacts(world: &World, instants: &[Instant<'_>]) -> Result<Vec<u8
         for contact in row.forces {
             let with = contact.obstacle.map_or_else(
                 || "floor".to_owned(),
-                |index| obstacle_name(world.obstacles(), index),
+                |index| obstacle_name(obstacles, index),
             );
             let mut cells = vec![
                 number(row.time, 4),
-                world.robot().bodies[contact.body.0].name.clone(),
+                robot.bodies[contact.body.0].name.clone(),
                 with,
             ];
             cells.extend(
@@ -221,7 +202,10 @@ pub(super) fn contacts(world: &World, instants: &[Instant<'_>]) -> Result<Vec<u8
 }
 
 /// `plate-contacts.csv`.
-pub(super) fn plate_contacts(summary: &CrawlSummary) -> Result<Vec<u8>, csv::Error> {
+///
+/// # Errors
+/// [`csv::Error`], which writing to memory does not produce.
+pub fn plate_contacts(summary: &CrawlSummary) -> Result<Vec<u8>, csv::Error> {
     let mut table = csv::Writer::from_writer(Vec::new());
     table.write_record(["body", "obstacle", "count", "first_s", "seconds", "peak_n"])?;
     for contact in &summary.contacts {

@@ -22,7 +22,10 @@ pub const RUN_FILE: &str = "run.json";
 pub type Artefacts = BTreeMap<String, Vec<u8>>;
 
 /// A value as the text of a JSON file.
-pub(crate) fn json(value: &impl Serialize) -> Result<Vec<u8>, serde_json::Error> {
+///
+/// # Errors
+/// [`serde_json::Error`] where the value has no JSON.
+pub fn json(value: &impl Serialize) -> Result<Vec<u8>, serde_json::Error> {
     let mut text = serde_json::to_vec_pretty(value)?;
     text.push(b'\n');
     Ok(text)

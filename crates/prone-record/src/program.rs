@@ -16,8 +16,10 @@ pub struct Program {
     pub commit: Cow<'static, str>,
 }
 
-#[derive(Debug, Clone, Serialize, Deserialize)]
+/// Which robot it was.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RobotInfo {
+    /// The manufacturer's name.
     pub name: String,
     /// Of which family it is a version; records of earlier builds do not say.
     #[serde(default)]
@@ -25,7 +27,9 @@ pub struct RobotInfo {
     /// Which version of it.
     #[serde(default)]
     pub version: Option<String>,
+    /// Its folder, as the user named it.
     pub folder: String,
+    /// Of the texts that define it.
     pub sha256: String,
     /// How high it stands, mm, where its manufacturer says so.
     pub standing_height_mm: Option<f64>,
@@ -40,6 +44,7 @@ pub fn version_name(family: Option<&str>, version: Option<&str>) -> String {
 }
 
 impl RobotInfo {
+    /// Words for its version, `unknown` where a record does not say.
     pub fn version_name(&self) -> String {
         version_name(self.family.as_deref(), self.version.as_deref())
     }
@@ -60,4 +65,3 @@ impl RobotInfo {
         }
     }
 }
-

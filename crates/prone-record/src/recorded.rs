@@ -28,13 +28,14 @@ pub use run::{
 };
 
 use crate::output::RUN_FILE;
-pub(crate) use model::MODEL_FILE;
+pub use model::MODEL_FILE;
 use rows::Rows;
 use table::Table;
 
-/// The tables.
-pub(crate) const ROWS_FILE: &str = "rows.csv";
-pub(crate) const CONTACTS_FILE: &str = "contacts.csv";
+/// The table of instants.
+pub const ROWS_FILE: &str = "rows.csv";
+/// The table of contacts.
+pub const CONTACTS_FILE: &str = "contacts.csv";
 
 /// The files of a record.
 pub const FILES: [&str; 4] = [RUN_FILE, MODEL_FILE, ROWS_FILE, CONTACTS_FILE];

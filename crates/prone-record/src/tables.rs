@@ -107,6 +107,10 @@ pub fn as_written(value: f64, decimals: usize) -> f64 {
     number(value, decimals).parse().unwrap_or(value)
 }
 
+/// The table as a file.
+///
+/// # Errors
+/// [`csv::Error`], which writing to memory does not produce.
 pub fn finish(table: csv::Writer<Vec<u8>>) -> Result<Vec<u8>, csv::Error> {
     table
         .into_inner()

@@ -1,7 +1,7 @@
 //! Puts figures among the files of a result, and lists them in `figures.json`.
 
-use prone_record::figure_entry::{FIGURES_FILE, FigureEntry};
 use crate::figures::Figure;
+use prone_record::figure_entry::{FIGURES_FILE, FigureEntry};
 use prone_record::output::{Artefacts, json};
 
 /// Collects the entries while figures are put among the files of a result.

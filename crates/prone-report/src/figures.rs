@@ -22,7 +22,7 @@ mod frontier;
 mod heat;
 mod panel;
 mod parameters;
-pub(crate) mod raster;
+pub mod raster;
 mod records;
 mod search;
 mod selection;
@@ -39,9 +39,9 @@ pub use frontier::figure as frontier_figure;
 pub use records::{AngleRecord, AngleRow, ConfirmedRecord, GenerationRecord, Scores, SearchRecord};
 pub use search::{confirmation, generations};
 
-use prone_thesis::published;
 use prone_record::pulls::{ChainRecord, CostRecord, PullRecord};
 use sheet::Sheet;
+pub use torque::Numbers as TorqueNumbers;
 pub use torque_map::figures as torque_map_figures;
 
 /// Pixels per unit of an SVG figure in the PNG that lies beside it.
@@ -99,51 +99,33 @@ impl Figure {
     }
 }
 
-/// Everything drawn for one gait alone, with the numbers of the originals.
-struct GaitNumbers {
-    gait: &'static str,
-    chain: &'static str,
-    torque: torque::Numbers,
-    /// Where the thesis sees the curves of different durations part, s.
-    published_divergence_s: f64,
+/// A gait of a publication, with the numbers of the figures that show it alone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GaitNumbers {
+    /// Its name.
+    pub gait: &'static str,
+    /// Of the planned chain.
+    pub chain: &'static str,
+    /// Of the pictures over a pull.
+    pub frames: &'static str,
+    /// Of the torques.
+    pub torque: TorqueNumbers,
+    /// Where the publication sees the curves of different durations part, s.
+    pub published_divergence_s: f64,
 }
-
-const NUMBERED: [GaitNumbers; 2] = [
-    GaitNumbers {
-        gait: published::NOMINAL,
-        chain: "26",
-        torque: torque::Numbers {
-            by_duration: "36",
-            time: "38",
-            transient: "40",
-            cycle: "42",
-        },
-        published_divergence_s: 0.25,
-    },
-    GaitNumbers {
-        gait: published::OPTIMAL,
-        chain: "34",
-        torque: torque::Numbers {
-            by_duration: "37",
-            time: "39",
-            transient: "41",
-            cycle: "43",
-        },
-        published_divergence_s: 0.175,
-    },
-];
 
 /// Figure 25 of some gaits; nothing without chains.
-pub(crate) fn parameters(chains: &[ChainRecord]) -> Option<Figure> {
+pub(crate) fn parameters(gaits: &[GaitNumbers], chains: &[ChainRecord]) -> Option<Figure> {
     check::chains(chains).ok()?;
-    parameters::figure(chains)
+    parameters::figure(gaits, chains)
 }
 
-/// All figures that the records allow, in the order of their numbers.
+/// All figures of a study of some gaits that the records allow, in the order of their numbers.
 ///
 /// # Errors
 /// If a record holds a number that is not finite, or a duration that is not positive.
 pub fn study_figures(
+    gaits: &[GaitNumbers],
     chains: &[ChainRecord],
     pulls: &[PullRecord],
     costs: &[CostRecord],
@@ -152,8 +134,8 @@ pub fn study_figures(
     check::pulls(pulls)?;
     check::costs(costs)?;
 
-    let mut figures: Vec<Figure> = parameters::figure(chains).into_iter().collect();
-    for numbers in &NUMBERED {
+    let mut figures: Vec<Figure> = parameters::figure(gaits, chains).into_iter().collect();
+    for numbers in gaits {
         if let Some(record) = chains.iter().find(|record| record.gait == numbers.gait) {
             figures.extend(chain::figure(record, numbers.chain));
         }
@@ -166,12 +148,10 @@ pub fn study_figures(
             divergence_s,
         ));
     }
-    figures.extend(comparison::figure(
-        pulls,
-        NUMBERED[0].gait,
-        NUMBERED[1].gait,
-    ));
-    figures.extend(cost::figures(costs, NUMBERED[0].gait));
+    if let [first, second, ..] = gaits {
+        figures.extend(comparison::figure(pulls, first.gait, second.gait));
+        figures.extend(cost::figures(gaits, costs, first.gait));
+    }
     figures.sort_by_key(|figure| figure.number);
     Ok(figures)
 }

@@ -2,14 +2,13 @@
 //! computes physics, and no physics engine is linked.
 //!
 //! [`figures`] draws, [`report`] puts result folders together as one page, [`view`] replays, and
-//! [`export`] writes other formats. A [`publication::Publication`] is what all of it may be held
+//! [`export`] writes other formats. A [`report::Publication`] is what all of it may be held
 //! against.
 
 pub mod export;
 pub mod figure_list;
 pub mod figures;
-mod markup;
+pub mod markup;
 mod page_head;
-pub mod publication;
 pub mod report;
 pub mod view;

@@ -1,7 +1,7 @@
 //! Texts inside SVG and XML.
 
 /// A text as the content of an element, or inside an attribute's double quotes.
-pub(crate) fn escaped(text: &str) -> String {
+pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;")
         .replace('<', "&lt;")
         .replace('>', "&gt;")

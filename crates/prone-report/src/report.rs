@@ -1,30 +1,28 @@
 //! The report: result folders as one HTML page that loads nothing, with figures beside it.
 //!
 //! It reads records and computes no physics: drawings are made from tables again, what the engine's
-//! camera saw is shown as it was recorded. `folder` and `cut_table` read, `study`, `crawl_run`,
-//! `search_run` and `drawn_run` know what each command leaves behind; `chapter` lists the figures of
-//! the published chapter, `shown` those that there are; `card` is the report card; `page` and the
+//! camera saw is shown as it was recorded. `folder` and `cut_table` read, `crawl_run`,
+//! `search_run` and `drawn_run` know what each command leaves behind, as a
+//! [`Publication`] knows of its own; `shown` are the figures that there are; `card` is the report card; `page` and the
 //! `…sections` write.
 
 mod card;
 mod card_sections;
-mod chains;
-mod chapter;
+pub mod chains;
 mod crawl_run;
+pub mod curve_tables;
 mod cut_table;
 mod drawn_run;
 mod error;
 mod folder;
 mod page;
-mod parameter_tables;
 mod picture;
+mod publication;
 mod replay;
 mod rivals;
 mod run_sections;
 mod search_run;
-mod sections;
 mod shown;
-mod study;
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -34,17 +32,19 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 pub use card::{Card, JointCard};
+pub use cut_table::{Column, Cut, CutTable, Line, NoNumber};
 pub use error::ReportError;
+pub use folder::Folder;
+pub use publication::{MadeBy, Part, Place, Publication, PublishedRun, Unpublished};
 
 use crate::figures::PNG_SCALE;
-use prone_record::output::{Artefacts, RUN_FILE, json};
-use RUNINFO::Program;
 use crawl_run::{CrawlRun, PullRun};
 use drawn_run::DrawnRun;
-use folder::{Folder, Given};
+use folder::Given;
+use prone_record::output::{Artefacts, RUN_FILE, json};
+use prone_record::program::Program;
 use search_run::SearchRun;
 use shown::Shown;
-use study::StudyRun;
 
 /// What a page may weigh, bytes; the replay gives way.
 pub const LARGEST_PAGE: usize = 6_000_000;
@@ -66,7 +66,7 @@ pub struct Source {
 
 /// What was read of a folder.
 enum Run {
-    Study(Box<StudyRun>),
+    Published(Folder, Box<dyn PublishedRun>),
     Crawl(Box<CrawlRun>),
     Pull(Box<PullRun>),
     Search(Box<SearchRun>),
@@ -97,6 +97,9 @@ pub struct Numbers {
     pub replayed: Vec<String>,
     /// What is missing of the records, one sentence each.
     pub shortfalls: Vec<String>,
+    /// How many figures the publication has.
+    #[serde(skip)]
+    places: usize,
 }
 
 /// A folder that was read.
@@ -127,32 +130,33 @@ pub struct ShownEntry {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct MissingEntry {
     /// Of its original in the chapter.
-    pub number: &'static str,
+    pub number: String,
     /// What it shows.
-    pub shows: &'static str,
+    pub shows: String,
     /// The command that makes it; nothing where that takes a robot.
-    pub command: Option<&'static str>,
+    pub command: Option<String>,
 }
 
 impl Numbers {
-    /// How many figures of the chapter have a counterpart.
-    pub fn chapter_figures(&self) -> usize {
-        chapter::places().count() - self.missing.len()
+    /// How many figures of a publication have a counterpart.
+    pub const fn chapter_figures(&self) -> usize {
+        self.places - self.missing.len()
     }
 }
 
 impl Report {
-    /// Reads result folders and makes the report of them. Drawings are made on the current rayon pool.
+    /// Reads result folders and makes the report of them, held against a publication. Drawings are made
+    /// on the current rayon pool.
     ///
     /// # Errors
     /// [`ReportError`].
-    pub fn of(sources: &[Source]) -> Result<Self, ReportError> {
+    pub fn of(sources: &[Source], publication: &dyn Publication) -> Result<Self, ReportError> {
         let runs: Vec<Vec<Run>> = sources
             .par_iter()
-            .map(|source| read(&source.name, &source.folder, Given::Named))
+            .map(|source| read(&source.name, &source.folder, Given::Named, publication))
             .collect::<Result<_, _>>()?;
         let runs: Vec<Run> = runs.into_iter().flatten().collect();
-        let shown = shown::of(&runs)?;
+        let shown = shown::of(&runs, publication)?;
         let mut crawls: Vec<&CrawlRun> = runs
             .iter()
             .filter_map(|run| match run {
@@ -167,6 +171,7 @@ impl Report {
             runs: &runs,
             shown: &shown,
             cards: &cards,
+            publication,
             left_out: BTreeSet::new(),
         };
         let (html, replayed) = page.html()?;
@@ -176,9 +181,10 @@ impl Report {
                 runs: runs.iter().map(Run::entry).collect(),
                 cards,
                 figures: shown.iter().map(entry).collect(),
-                missing: missing(&shown),
+                missing: missing(&shown, publication),
                 replayed,
                 shortfalls: runs.iter().flat_map(Run::shortfalls).collect(),
+                places: places(publication).count(),
             },
             shown,
         })
@@ -188,7 +194,11 @@ impl Report {
     ///
     /// # Errors
     /// [`ReportError`].
-    pub(crate) fn of_artefacts(name: &str, artefacts: &Artefacts) -> Result<Self, ReportError> {
+    pub fn of_artefacts(
+        name: &str,
+        artefacts: &Artefacts,
+        publication: &dyn Publication,
+    ) -> Result<Self, ReportError> {
         let home = tempfile::tempdir().map_err(ReportError::Temporary)?;
         for (file, bytes) in artefacts {
             let path = home.path().join(file);
@@ -197,17 +207,18 @@ impl Report {
                 .and_then(|()| fs::write(&path, bytes))
                 .map_err(ReportError::Temporary)?;
         }
-        Self::of(&[Source {
+        let source = Source {
             name: name.to_owned(),
             folder: home.path().to_owned(),
-        }])
+        };
+        Self::of(&[source], publication)
     }
 
     /// Figures as SVG and PNG, in `figures/`.
     ///
     /// # Errors
     /// [`ReportError`] where a drawing has no PNG.
-    pub(crate) fn figures(&self) -> Result<Artefacts, ReportError> {
+    pub fn figures(&self) -> Result<Artefacts, ReportError> {
         let files = self
             .shown
             .par_iter()
@@ -248,18 +259,24 @@ struct ReportInfo<'a> {
 }
 
 /// A folder, and the records in it.
-fn read(name: &str, path: &Path, given: Given) -> Result<Vec<Run>, ReportError> {
+fn read(
+    name: &str,
+    path: &Path,
+    given: Given,
+    publication: &dyn Publication,
+) -> Result<Vec<Run>, ReportError> {
     let folder = Folder::open(name, path, given)?;
-    let run = match folder.command.as_str() {
-        "reproduce" => {
-            let within = folder.records();
-            let mut runs = vec![Run::Study(Box::new(StudyRun::read(folder)?))];
-            for inner in within {
-                let (name, path) = (format!("{name}/{inner}"), path.join(&inner));
-                runs.extend(read(&name, &path, Given::Within)?);
-            }
-            return Ok(runs);
+    if let Some(published) = publication.read(&folder) {
+        let published = published?;
+        let within = folder.records();
+        let mut runs = vec![Run::Published(folder, published)];
+        for inner in within {
+            let (name, path) = (format!("{name}/{inner}"), path.join(&inner));
+            runs.extend(read(&name, &path, Given::Within, publication)?);
         }
+        return Ok(runs);
+    }
+    let run = match folder.command.as_str() {
         "crawl run" | "reproduce crawl" => Run::Crawl(Box::new(CrawlRun::read(folder)?)),
         "reproduce pull" => Run::Pull(Box::new(PullRun::read(folder)?)),
         "optimize" if folder.said("/source").as_deref() == Some("cycle") => {
@@ -281,7 +298,7 @@ fn read(name: &str, path: &Path, given: Given) -> Result<Vec<Run>, ReportError> 
 impl Run {
     fn folder(&self) -> &Folder {
         match self {
-            Self::Study(run) => &run.folder,
+            Self::Published(folder, _) => folder,
             Self::Crawl(run) => &run.folder,
             Self::Pull(run) => &run.folder,
             Self::Search(run) => &run.folder,
@@ -302,7 +319,7 @@ impl Run {
     fn shortfalls(&self) -> Vec<String> {
         let said = |cuts: &[cut_table::Cut]| cuts.iter().map(ToString::to_string).collect();
         match self {
-            Self::Study(run) => said(&run.cuts),
+            Self::Published(_, run) => run.shortfalls(),
             Self::Search(run) => said(&run.cuts),
             Self::Crawl(run) => run.notes.clone(),
             Self::Pull(run) => run.notes.clone(),
@@ -320,15 +337,19 @@ fn entry(shown: &Shown) -> ShownEntry {
     }
 }
 
-fn missing(shown: &[Shown]) -> Vec<MissingEntry> {
-    let places =
-        chapter::places().filter(|place| shown.iter().all(|shown| shown.number != place.number));
+fn places(publication: &dyn Publication) -> impl Iterator<Item = &Place> {
+    publication.parts().iter().flat_map(|part| &part.places)
+}
+
+fn missing(shown: &[Shown], publication: &dyn Publication) -> Vec<MissingEntry> {
+    let places = places(publication);
+    let places = places.filter(|place| shown.iter().all(|shown| shown.number != place.number));
     let missing = places.map(|place| MissingEntry {
-        number: place.number,
-        shows: place.shows,
-        command: match place.made_by {
-            chapter::MadeBy::Command(command) => Some(command),
-            chapter::MadeBy::Robot => None,
+        number: place.number.clone(),
+        shows: place.shows.clone(),
+        command: match &place.made_by {
+            MadeBy::Command(command) => Some(command.clone()),
+            MadeBy::Robot => None,
         },
     });
     missing.collect()

@@ -7,10 +7,10 @@
 use std::f64::consts::FRAC_PI_2;
 use std::sync::OnceLock;
 
-use prone_files::shipped;
 use prone::regime::CONTROL_STEP;
-use prone_sim::{LoadedRobot, Placement, RobotFiles, Simulation, World};
 use prone::regime::Regime;
+use prone_files::shipped;
+use prone_sim::{LoadedRobot, Placement, RobotFiles, Simulation, World};
 
 fn main() {
     divan::main();

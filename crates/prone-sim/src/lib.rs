@@ -26,7 +26,7 @@ mod world;
 pub use load::{LoadError, LoadedRobot, ModelProblem, RobotFiles};
 pub use model_view::{InertiaView, ShapeView};
 pub use simulation::{
-    ContactForce, ObstacleContact, Placement, Simulation, SimulationError, Snapshot, StepMeans,
+    ObstacleContact, Placement, Simulation, SimulationError, Snapshot, StepMeans,
 };
 pub use world::{World, WorldError};
 

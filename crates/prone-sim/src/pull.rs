@@ -14,9 +14,10 @@ use prone::gait::{CheckedTrajectory, Gait, PhaseDuration, TrajectoryError};
 use prone::mapping::Mapping;
 use prone::robot::{BodyPart, JointAngles, Tops};
 
-use prone::regime::CONTROL_STEP;
-use crate::simulation::{ContactForce, Placement, Simulation, SimulationError, Snapshot};
+use crate::simulation::{Placement, Simulation, SimulationError, Snapshot};
 use crate::world::World;
+use prone::regime::CONTROL_STEP;
+use prone::scene::ContactForce;
 
 /// How long the servos hold the start pose before the phase, s. From half a second on, longer
 /// changes nothing; none at all starts the phase in mid-fall.

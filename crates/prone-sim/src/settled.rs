@@ -13,9 +13,9 @@ use prone::mapping::{Mapping, MappingError};
 use prone::robot::JointAngles;
 use prone::torque_map::{JointTorques, TorqueGap, TorqueSource};
 
-use prone::regime::CONTROL_STEP;
 use crate::simulation::{Placement, Simulation, SimulationError, StepMeans};
 use crate::world::World;
+use prone::regime::CONTROL_STEP;
 
 /// Largest change of a motor's mean torque between control steps at rest, N·m.
 pub const STILL: f64 = 1e-4;

@@ -8,12 +8,12 @@ use mujoco_rs::prelude::*;
 use prone::frames::{Ground, Link, Point, Root, Transform};
 use prone::robot::{BodyPoses, ContactGroup, JointAngles, Robot};
 
-use prone::regime::CONTROL_STEP;
 use crate::world::World;
+use prone::regime::CONTROL_STEP;
 
 mod contacts;
 
-pub use contacts::{ContactForce, ObstacleContact};
+pub use contacts::ObstacleContact;
 
 /// Coordinates of a free root: position and quaternion.
 const FREE_JOINT: usize = 7;

@@ -5,9 +5,9 @@ mod changed;
 use std::f64::consts::FRAC_PI_2;
 
 use changed::{SAME, changed};
+use prone::regime::Regime;
 use prone_files::shipped::NAO;
 use prone_sim::{LoadedRobot, Placement, RobotFiles, Simulation, StepMeans, World};
-use prone::regime::Regime;
 
 fn nao() -> LoadedRobot {
     LoadedRobot::load(changed(SAME, SAME)).unwrap()

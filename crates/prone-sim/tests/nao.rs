@@ -7,11 +7,11 @@ use glam::{DQuat, DVec3};
 use prone::chain::GaitParameters;
 use prone::frames::{Ground, Root, Transform};
 use prone::mapping::{ArmMode, Mapping, MappingVariant, SideGeometry};
+use prone::regime::Regime;
 use prone::robot::{ContactGroup, Robot, Solid};
 use prone_files::shipped;
 use prone_sim::pull::{self, Keep, Start};
 use prone_sim::{LoadedRobot, Placement, RobotFiles, Simulation, World};
-use prone::regime::Regime;
 
 fn nao() -> LoadedRobot {
     LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap()

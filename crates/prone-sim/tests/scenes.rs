@@ -5,10 +5,10 @@ use std::f64::consts::FRAC_PI_2;
 use glam::DVec3;
 
 use prone::frames::Point;
+use prone::regime::Regime;
 use prone::scene::{Marker, Panel, Ramp, Roughness, Scene, SideFriction};
 use prone_files::shipped;
 use prone_sim::{LoadedRobot, Placement, RobotFiles, Simulation, World, WorldError};
-use prone::regime::Regime;
 
 fn nao() -> LoadedRobot {
     LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap()

@@ -10,13 +10,13 @@ use rayon::prelude::*;
 
 use prone::chain::GaitParameters;
 use prone::mapping::{ArmMode, Mapping, MappingVariant};
+use prone::regime::Regime;
 use prone::robot::{ContactGroup, Robot};
 use prone::statics::{self, HalfRobot, Stance, StaticTorques, SupportRule, virtual_work};
 use prone::torque_map::{self, Axis, Grid, Row, TorqueMap, TorqueSource};
 use prone_files::shipped;
 use prone_sim::settled::SettledTorques;
 use prone_sim::{LoadedRobot, RobotFiles, World};
-use prone::regime::Regime;
 
 /// Our torques of one side and theirs, N·m.
 type Pair = ([f64; 4], [f64; 4]);

@@ -1,11 +1,11 @@
 //! Work of a motor is what it lifts, and not what it lets down: m g h, by the law.
 
+use prone::regime::Regime;
 use prone::robot::{BodyId, JointAngles, JointId, Robot};
 use prone::statics::GRAVITY;
 use prone_files::shipped;
 use prone_sim::crawl::{JointEffort, MotorStep};
 use prone_sim::{LoadedRobot, Placement, RobotFiles, Simulation, World};
-use prone::regime::Regime;
 
 /// Shoulder pitch of arms that point obliquely towards the feet, rad.
 const LOW: f64 = 1.2;

@@ -5,10 +5,10 @@
 use prone::cost::graded::Norm;
 use prone::gait::{Curve, Gait, PhaseDuration};
 use prone::mapping::Mapping;
+use prone::regime::Regime;
 use prone::statics::{Stance, StaticTorques, SupportRule};
 use prone_files::shipped;
 use prone_sim::{LoadedRobot, RobotFiles, World};
-use prone::regime::Regime;
 use prone_study::optimize::dynamic::{DynamicPricing, DynamicSetup};
 use prone_study::optimize::pricing::{Pricing, Share};
 use prone_study::optimize::rules::{ChainRules, Clearance};

@@ -3,10 +3,12 @@
 //! [`summary`] reduces a record to figures, [`record`] makes every file of a record folder. Both
 //! read what [`prone_sim::crawl`] measured.
 
-pub(crate) mod frames;
+mod angles;
+pub mod frames;
+mod instants;
 pub mod joints;
 mod model;
-pub(crate) mod pull;
+pub mod pull;
 pub mod record;
 mod run;
 pub mod summary;

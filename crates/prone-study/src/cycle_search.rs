@@ -7,7 +7,6 @@ pub mod form;
 pub mod frontier;
 pub mod passage;
 pub mod price;
-pub mod record;
 pub mod rules;
 pub mod setting;
 pub mod settings;

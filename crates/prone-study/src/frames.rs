@@ -9,7 +9,6 @@ use prone_sim::camera::{self, Camera, Picture, PictureError};
 use prone_sim::{Snapshot, World};
 
 use prone_report::figures::{Figure, FigureError, raster};
-use prone_thesis::published;
 
 /// Size of one frame, pixels.
 const FRAME: (usize, usize) = (800, 300);
@@ -37,14 +36,20 @@ pub enum FramesError {
 }
 
 /// Frames of one gait.
-pub(crate) struct Frames {
-    pub(crate) figure: Figure,
-    pub(crate) png: Vec<u8>,
+pub struct Frames {
+    /// What is said about them, with the pictures in its SVG.
+    pub figure: Figure,
+    /// The same as PNG.
+    pub png: Vec<u8>,
 }
 
 /// Takes the pictures from a camera that stays where it is, so that the advance shows.
-pub(crate) fn of(
+///
+/// # Errors
+/// [`FramesError`].
+pub fn of(
     world: &World,
+    number: &'static str,
     gait: &str,
     duration_s: f64,
     snapshots: &[Snapshot],
@@ -64,11 +69,6 @@ pub(crate) fn of(
         .par_iter()
         .map(|snapshot| camera::ray_cast(&mut world.at(snapshot), &camera, FRAME))
         .collect();
-    let number = if gait == published::OPTIMAL {
-        "35"
-    } else {
-        "27"
-    };
     let percents: Vec<String> = (0..snapshots.len())
         .map(|index| format!("{} %", index * 100 / (snapshots.len() - 1).max(1)))
         .collect();
@@ -91,7 +91,10 @@ pub(crate) fn of(
 }
 
 /// Figure 22: the robot before a pull.
-pub(crate) fn start(
+///
+/// # Errors
+/// [`FramesError`].
+pub fn start(
     world: &World,
     gait: &str,
     posture: &str,
@@ -151,7 +154,10 @@ pub(crate) fn stacked(
 }
 
 /// One larger picture, for a title page.
-pub(crate) fn cover(world: &World, snapshot: &Snapshot) -> Result<Vec<u8>, FramesError> {
+///
+/// # Errors
+/// [`FramesError`].
+pub fn cover(world: &World, snapshot: &Snapshot) -> Result<Vec<u8>, FramesError> {
     Ok(from_the_right(world, snapshot).png()?)
 }
 

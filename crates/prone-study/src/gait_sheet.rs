@@ -7,8 +7,8 @@ use prone::chain::ChainAngles;
 use prone::frames::{Ground, Root, Transform};
 use prone::gait::{CheckedTrajectory, Gait, PhaseDuration, Sample, TrajectoryError};
 use prone::mapping::Mapping;
-use prone_record::crawl_summary::SheetClamp;
 use prone::robot::{BodyPoses, ContactGroup, JointAngles, JointId, Robot, Shape};
+use prone_record::crawl_summary::SheetClamp;
 
 /// Samples of a sheet: 1 % of the phase apart.
 const INTERVALS: usize = 100;

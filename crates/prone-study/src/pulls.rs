@@ -6,6 +6,14 @@ use prone_record::pulls::{ChainRecord, ChainSample, PullRecord, PullRow};
 use prone_sim::World;
 use prone_sim::pull::Pull;
 
+/// Is told how a study goes, from many threads.
+pub trait Observer: Sync {
+    /// One more phase has been simulated.
+    fn phase_done(&self);
+    /// Whether to begin no further phase.
+    fn stop(&self) -> bool;
+}
+
 /// Samples of a planned chain: 1 % of the phase apart.
 const CHAIN_INTERVALS: usize = 100;
 
@@ -60,12 +68,7 @@ pub fn chain_record(gait: &Gait, trajectory: &CheckedTrajectory) -> ChainRecord 
 }
 
 /// What a simulated pull leaves behind.
-pub fn pull_record(
-    robot: &Robot,
-    gait: &Gait,
-    duration: PhaseDuration,
-    pull: &Pull,
-) -> PullRecord {
+pub fn pull_record(robot: &Robot, gait: &Gait, duration: PhaseDuration, pull: &Pull) -> PullRecord {
     let side = &robot.chain.right;
     let pitch = side.pitch_joints();
     let commanded = side.commanded_joints();

@@ -7,20 +7,20 @@
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
+use prone::cost::objective::Objective;
 use prone::cost::published::PublishedRules;
 use prone::gait::{Gait, PhaseDuration};
+use prone::regime::Regime;
 use prone::torque_map::{self, TorqueMap};
 use prone_files::shipped;
+use prone_record::search::{Search, SearchEnd, Solver};
 use prone_sim::pull::{self, Keep, Start};
 use prone_sim::{LoadedRobot, RobotFiles, World};
-use prone::regime::Regime;
 use prone_study::optimize::dynamic::{DynamicPricing, DynamicSetup};
-use prone::cost::objective::Objective;
 use prone_study::optimize::pricer;
 use prone_study::optimize::pricing::{Pricing, Share};
 use prone_study::optimize::published_problem::{self, PublishedProblem};
 use prone_study::optimize::rules::{self, ChainRules, Clearance};
-use prone_record::search::{Search, SearchEnd, Solver};
 
 fn nao() -> LoadedRobot {
     LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap()

@@ -8,8 +8,8 @@ use std::path::PathBuf;
 
 use prone::torque_map::{RecordedMap, parse_recorded};
 use prone_files::shipped;
+use prone_record::program::Program;
 use prone_sim::{LoadedRobot, RobotFiles};
-use RUNINFO::Program;
 use prone_study::torque_map::build::{self, Observer};
 use prone_study::torque_map::compare::{MaskCounts, compare};
 use prone_study::torque_map::{Job, NodeGrid, Opening, Source};

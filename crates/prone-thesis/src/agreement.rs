@@ -3,6 +3,7 @@
 //! Both are means over tenths of the phase. The first two tenths are left out: there the robot
 //! still travels from its start pose and lies on its belly.
 
+use prone_record::statistics::{correlation, rms};
 use std::borrow::Cow;
 
 use serde::{Deserialize, Serialize};

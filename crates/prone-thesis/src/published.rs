@@ -5,6 +5,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use prone_report::figures::{GaitNumbers, TorqueNumbers};
+
 /// Values behind Figure 45: ∫ Σ τ² dt of one side at 1, 2, … 10 s, N²·m²·s.
 const NOMINAL_COSTS: [f64; 10] = [
     1.552, 2.769, 3.946, 5.003, 6.114, 7.211, 8.354, 9.641, 10.769, 11.761,
@@ -20,6 +22,34 @@ pub const OPTIMAL: &str = "optimal";
 
 /// The gaits of the published study.
 pub const GAITS: [&str; 2] = [NOMINAL, OPTIMAL];
+
+/// The gaits of the study, with the numbers of the chapter's figures.
+pub const FIGURES: [GaitNumbers; 2] = [
+    GaitNumbers {
+        gait: NOMINAL,
+        chain: "26",
+        frames: "27",
+        torque: TorqueNumbers {
+            by_duration: "36",
+            time: "38",
+            transient: "40",
+            cycle: "42",
+        },
+        published_divergence_s: 0.25,
+    },
+    GaitNumbers {
+        gait: OPTIMAL,
+        chain: "34",
+        frames: "35",
+        torque: TorqueNumbers {
+            by_duration: "37",
+            time: "39",
+            transient: "41",
+            cycle: "43",
+        },
+        published_divergence_s: 0.175,
+    },
+];
 
 /// The cycle of the published experiments on the robot.
 pub const TABLE_CYCLE: &str = "thesis-nominal";

@@ -4,21 +4,26 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use prone_sim::{LoadedRobot, World, WorldError};
 use prone::regime::Regime;
+use prone_sim::{LoadedRobot, World, WorldError};
 
-use prone_study::crawl::pull::PullRecording;
-use prone_study::crawl::record::{RecordError, Recording};
-use prone_report::figure_list::FigureList;
-use prone_study::frames::FramesError;
-use prone_record::output::{Artefacts, RUN_FILE, json};
-use prone_record::recorded::Command;
-use prone_report::report::{PAGE_FILE, Report, ReportError};
-use RUNINFO::{Program, RunInfo};
+use crate::chapter::Thesis;
+use crate::run_info::RunInfo;
 use crate::summary::{self, Summary};
 use crate::table_crawl::{self, TableError, TableResult, TableStudy};
-use crate::torque_study::{self, Observer, Plan, StudyError, TorqueStudy};
-use crate::{agreement, contact_story, crawl, frames, published, tables};
+use crate::torque_study::{self, Plan, StudyError, TorqueStudy};
+use crate::{agreement, published, tables};
+use prone_record::output::{Artefacts, RUN_FILE, json};
+use prone_record::program::Program;
+use prone_record::recorded::Command;
+use prone_record::{contact_story, tables as record_tables};
+use prone_report::figure_list::FigureList;
+use prone_report::report::{PAGE_FILE, Report, ReportError};
+use prone_study::crawl::pull::PullRecording;
+use prone_study::crawl::record::{RecordError, Recording};
+use prone_study::frames::FramesError;
+use prone_study::pulls::Observer;
+use prone_study::{crawl, frames};
 
 /// A finished reproduction.
 #[derive(Debug)]
@@ -113,11 +118,11 @@ pub fn run(
 
     let mut artefacts = Artefacts::new();
     for pull in &study.pulls {
-        let name = format!("torques/{}", tables::torque_file_name(pull));
-        artefacts.insert(name, tables::torques(pull)?);
+        let name = format!("torques/{}", record_tables::torque_file_name(pull));
+        artefacts.insert(name, record_tables::torques(pull)?);
     }
-    artefacts.insert("chains.csv".into(), tables::chains(&study.chains)?);
-    artefacts.insert("costs.csv".into(), tables::costs(&study.costs)?);
+    artefacts.insert("chains.csv".into(), record_tables::chains(&study.chains)?);
+    artefacts.insert("costs.csv".into(), record_tables::costs(&study.costs)?);
     artefacts.insert(
         "agreement.csv".into(),
         tables::agreement(&summary.agreement)?,
@@ -132,7 +137,16 @@ pub fn run(
     let photographed = study
         .shown
         .par_iter()
-        .map(|(gait, pull)| frames::of(&world, &gait.name, study.showcase_s, &pull.snapshots))
+        .map(|(gait, pull)| {
+            let number = frames_number(&gait.name);
+            frames::of(
+                &world,
+                number,
+                &gait.name,
+                study.showcase_s,
+                &pull.snapshots,
+            )
+        })
         .collect::<Result<Vec<_>, _>>()?;
     let mut list = FigureList::default();
     if let Some((gait, pull)) = study.shown.first()
@@ -158,7 +172,7 @@ pub fn run(
     }
     list.finish(&mut artefacts)?;
     // The drawings are those of the report, made from the records as they will be read again.
-    let report = Report::of_artefacts(OWN_NAME, &artefacts)?;
+    let report = Report::of_artefacts(OWN_NAME, &artefacts, &Thesis)?;
     artefacts.extend(report.figures()?);
     artefacts.insert(PAGE_FILE.into(), report.html.into_bytes());
     let crawling = table_result.map_or(0, |result| result.engine_steps);
@@ -167,6 +181,14 @@ pub fn run(
         summary,
         engine_steps: study.engine_steps + crawling,
     })
+}
+
+/// Number of the figure that shows the robot over a pull; of an unknown gait, the first one's.
+fn frames_number(gait: &str) -> &'static str {
+    let known = published::FIGURES
+        .iter()
+        .find(|numbers| numbers.gait == gait);
+    known.unwrap_or(&published::FIGURES[0]).frames
 }
 
 /// The pulls that pictures show, each in a folder that can be replayed and exported.

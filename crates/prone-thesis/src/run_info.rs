@@ -1,71 +1,72 @@
-//! What was run: `run.json`, and the last section of the report.
+//! What was run: `run.json` of a reproduction.
 
 use std::borrow::Cow;
 
 use serde::{Deserialize, Serialize};
 
 use prone::regime::{CONTROL_STEP, Effort, SOLIMP, SOLREF, Stops, TIME_STEP};
+use prone_record::curves_info::CurvesInfo;
+use prone_record::program::{Program, RobotInfo};
 use prone_sim::{LoadedRobot, World};
 
-use prone_record::curves_info::CurvesInfo;
-use prone_thesis::torque_study::Plan;
+use crate::torque_study::Plan;
 
 /// What was run, for `run.json` and the report.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct RunInfo {
-    pub program: Cow<'static, str>,
+pub(crate) struct RunInfo {
+    pub(crate) program: Cow<'static, str>,
     #[serde(flatten)]
-    pub built: Program,
-    pub command: Cow<'static, str>,
-    pub engine: String,
-    pub robot: RobotInfo,
-    pub options: Options,
+    pub(crate) built: Program,
+    pub(crate) command: Cow<'static, str>,
+    pub(crate) engine: String,
+    pub(crate) robot: RobotInfo,
+    pub(crate) options: Options,
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct Options {
-    pub gaits: Vec<GaitInfo>,
-    pub durations_s: Vec<f64>,
-    pub showcase_s: f64,
-    pub regime: Cow<'static, str>,
-    pub friction: f64,
-    pub impratio: f64,
-    pub effort_limit: String,
-    pub stops: String,
-    pub time_step_s: f64,
-    pub control_step_s: f64,
-    pub servo_rate_per_s: f64,
-    pub servo_speed_rad_s: f64,
-    pub solref: [f64; 2],
-    pub solimp: [f64; 5],
-    pub start_posture: String,
-    pub settle_s: f64,
+pub(crate) struct Options {
+    pub(crate) gaits: Vec<GaitInfo>,
+    pub(crate) durations_s: Vec<f64>,
+    pub(crate) showcase_s: f64,
+    pub(crate) regime: Cow<'static, str>,
+    pub(crate) friction: f64,
+    pub(crate) impratio: f64,
+    pub(crate) effort_limit: String,
+    pub(crate) stops: String,
+    pub(crate) time_step_s: f64,
+    pub(crate) control_step_s: f64,
+    pub(crate) servo_rate_per_s: f64,
+    pub(crate) servo_speed_rad_s: f64,
+    pub(crate) solref: [f64; 2],
+    pub(crate) solimp: [f64; 5],
+    pub(crate) start_posture: String,
+    pub(crate) settle_s: f64,
     /// The crawl under the table, where the robot can do it.
-    pub table: Option<TableInfo>,
+    pub(crate) table: Option<TableInfo>,
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct TableInfo {
-    pub gait: String,
-    pub description: String,
-    pub scene: String,
-    pub regime: Cow<'static, str>,
-    pub friction: f64,
-    pub impratio: f64,
+pub(crate) struct TableInfo {
+    pub(crate) gait: String,
+    pub(crate) description: String,
+    pub(crate) scene: String,
+    pub(crate) regime: Cow<'static, str>,
+    pub(crate) friction: f64,
+    pub(crate) impratio: f64,
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct GaitInfo {
-    pub name: String,
-    pub description: String,
-    pub mapping: Cow<'static, str>,
-    pub arm: Cow<'static, str>,
+pub(crate) struct GaitInfo {
+    pub(crate) name: String,
+    pub(crate) description: String,
+    pub(crate) mapping: Cow<'static, str>,
+    pub(crate) arm: Cow<'static, str>,
     /// θ3, θ4 and α over the phase.
-    pub curves: CurvesInfo,
+    pub(crate) curves: CurvesInfo,
 }
 
 impl RunInfo {
-    pub fn of(
+    pub(crate) fn of(
         robot: &LoadedRobot,
         world: &World,
         plan: &Plan,
@@ -83,7 +84,7 @@ impl RunInfo {
             built: program.clone(),
             command: "reproduce".into(),
             engine: prone_sim::engine_version(),
-            robot: RobotInfo::of(robot),
+            robot: RobotInfo::of(robot.robot(), robot.files()),
             options: Options {
                 gaits: plan
                     .gaits()

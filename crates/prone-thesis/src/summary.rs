@@ -5,11 +5,11 @@ use std::borrow::Cow;
 use serde::{Deserialize, Serialize};
 
 use crate::agreement::Agreement;
-use prone_record::contact_story::ContactStory;
 use crate::published;
-use prone_record::pulls::{ChainRecord, ClampRecord, CostRecord, RunRecord};
 use crate::table_crawl::TableExperiment;
 use crate::torque_study::TorqueStudy;
+use prone_record::contact_story::ContactStory;
+use prone_record::pulls::{ChainRecord, ClampRecord, CostRecord, RunRecord};
 
 /// Everything that the report's tables show.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

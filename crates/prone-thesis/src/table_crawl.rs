@@ -6,15 +6,16 @@ use serde::{Deserialize, Serialize};
 
 use prone::crawl::Straight;
 use prone::gait::cycle::{CycleError, TimeScale};
+use prone::regime::Regime;
 use prone::scene::Scene;
 use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, Detail, End};
 use prone_sim::{LoadedRobot, World, WorldError};
-use prone::regime::Regime;
 
-use prone_study::crawl::{Conditions, CrawlSummary, GaitSource, summary};
 use crate::published::{TABLE_CRAWLS, TableCrawl};
-use RUNINFO::TableInfo;
-use crate::torque_study::Observer;
+use crate::run_info::TableInfo;
+use prone_record::crawl_summary::CrawlSummary;
+use prone_study::crawl::{Conditions, GaitSource, summary};
+use prone_study::pulls::Observer;
 
 /// How the published figures came about.
 const PUBLISHED_BY: &str = "on the real robot, distance and time as printed";

@@ -7,30 +7,19 @@ use rayon::prelude::*;
 use prone::cost::{CostError, squared_torque_integral};
 use prone::gait::{CheckedTrajectory, Gait, PhaseDuration, TrajectoryError};
 use prone::mapping::MappingVariant;
-use prone::robot::{JointAngles, Robot};
+use prone::robot::Robot;
 use prone_sim::World;
 use prone_sim::pull::{self, Keep, Pull, PullError, Start};
 
+use prone_study::pulls::{Observer, chain_record, plan_chain, pull_record};
+
 use crate::published;
-use prone_record::pulls::{
-    ChainRecord, ChainSample, ClampRecord, CostRecord, PullRecord, PullRow, RunRecord,
-};
+use prone_record::pulls::{ChainRecord, ClampRecord, CostRecord, PullRecord, RunRecord};
 
 pub use plan::{Plan, PlanError};
 
 /// Instants at which pictures of a pull are taken.
 pub const PICTURES: usize = 5;
-
-/// Samples of a planned chain: 1 % of the phase apart.
-const CHAIN_INTERVALS: usize = 100;
-
-/// Is told how a study goes, from many threads.
-pub trait Observer: Sync {
-    /// One more phase has been simulated.
-    fn phase_done(&self);
-    /// Whether to begin no further phase.
-    fn stop(&self) -> bool;
-}
 
 /// What came out.
 #[derive(Debug)]

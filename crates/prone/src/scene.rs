@@ -6,10 +6,12 @@
 //! ([`Roughness::heights`]); `prone-sim` gives both to the engine.
 
 mod check;
+mod contact;
 mod obstacle;
 mod rough;
 
 pub use check::{Item, MOST_POINTS, Quantity, SceneError};
+pub use contact::{ContactForce, obstacle_name};
 pub use obstacle::{Obstacle, ObstacleKind};
 pub use rough::{Heights, Roughness};
 

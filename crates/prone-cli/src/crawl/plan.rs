@@ -4,14 +4,14 @@ use anyhow::anyhow;
 
 use prone::crawl::{CrawlerError, HoldHeading, HoldLine, Pilot, SlopeAware, Straight};
 use prone::gait::cycle::{CheckedCycle, Cycle};
+use prone::regime::Regime;
+use prone::regime::Servo;
 use prone::robot::{JointAngles, Robot};
 use prone::scene::{Obstacle, Quantity, Scene, SceneError, SideFriction};
 use prone::steering::{HeadingHold, TurnTo};
 use prone_files::{scene_file, shipped, text_file};
 use prone_sim::crawl::{CrawlError, End, LimbsError, check_limbs};
-use prone::regime::Servo;
 use prone_sim::{LoadedRobot, World};
-use prone::regime::Regime;
 use prone_study::crawl::{Conditions, GaitSource, PastObstacles};
 use prone_study::cycle_search::settings::offsets;
 

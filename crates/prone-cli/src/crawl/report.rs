@@ -3,7 +3,7 @@
 use std::io::{Result, Write};
 
 use prone::robot::BodyPart;
-use prone_study::crawl::CrawlSummary;
+use prone_record::crawl_summary::CrawlSummary;
 
 pub(super) fn print(summary: &CrawlSummary, out: &mut impl Write) -> Result<()> {
     let s = summary;

@@ -2,11 +2,11 @@
 
 use prone::gait::cycle::Cycle;
 use prone_files::cycle_file;
-use prone_study::cycle_search::record::{self, Found, Frontier};
+use prone_record::frontier::{self, Found, Frontier};
+use prone_record::output::Artefacts;
+use prone_record::search::Search;
 use prone_report::figure_list::FigureList;
 use prone_report::figures::{PNG_SCALE, frontier_figure};
-use prone_record::search::Search;
-use prone_record::output::Artefacts;
 
 use super::Quest;
 use crate::Failure;
@@ -21,10 +21,10 @@ pub(super) fn artefacts(
     let mut artefacts = Artefacts::new();
     artefacts.insert("run.json".into(), pretty(&quest.plan)?);
     artefacts.insert("result.json".into(), pretty(frontier)?);
-    let table = record::csv(frontier).map_err(Failure::work)?;
+    let table = frontier::csv(frontier).map_err(Failure::work)?;
     artefacts.insert("frontier.csv".into(), table);
     let ceilings: Vec<Option<f64>> = quest.jobs.iter().map(|job| job.ceiling_mm).collect();
-    let history = record::history_csv(&ceilings, searches).map_err(Failure::work)?;
+    let history = frontier::history_csv(&ceilings, searches).map_err(Failure::work)?;
     artefacts.insert("history.csv".into(), history);
     for (cycle, found) in gaits.iter().zip(&frontier.found) {
         let text = cycle_file::write(cycle, &header(cycle, found));

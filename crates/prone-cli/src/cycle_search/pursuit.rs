@@ -9,11 +9,11 @@ use serde_json::json;
 
 use prone::gait::cycle::Cycle;
 use prone::regime::Regime;
-use prone_study::cycle_search::frontier;
-use prone_study::cycle_search::record::{Compared, Found, Frontier};
-use prone_study::cycle_search::setting::SettingKind;
-use prone_record::search::{Search, SearchEnd};
+use prone_record::frontier::SettingKind;
+use prone_record::frontier::{Compared, Found, Frontier};
 use prone_record::output;
+use prone_record::search::{Search, SearchEnd};
+use prone_study::cycle_search::frontier;
 
 use super::files::{self, pretty};
 use super::{Job, Quest};
@@ -179,7 +179,7 @@ fn found(quest: &Quest<'_>, searches: &[Search]) -> Result<(Frontier, Vec<Cycle>
             );
             let ceiling = job.ceiling_mm.map_or(f64::INFINITY, |mm| mm * 1e-3);
             let confirmed = frontier::confirm(&quest.confirmation, &cycle, ceiling);
-            let found = Found::new(
+            let found = frontier::found(
                 job.ceiling_mm,
                 run.seed,
                 run.evaluations(),

@@ -12,9 +12,9 @@ use std::process::{Child, Command, Stdio};
 use anyhow::{Context as _, anyhow};
 use tempfile::NamedTempFile;
 
+use prone_record::output::without_hidden_name;
 use prone_sim::camera::Picture;
 use prone_study::export::film::{Reel, Shot};
-use prone_record::output::without_hidden_name;
 
 use crate::Failure;
 

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use anyhow::anyhow;
 
+use prone_record::recorded::Recorded;
 use prone_study::export::film::{Film, Interrupted, Shot, View};
 use prone_study::export::gif_film::{self, GifReel};
 use prone_study::export::webp_film::WebpReel;
-use prone_record::recorded::Recorded;
 
 use super::ffmpeg::Ffmpeg;
 use super::{cannot_write, origin};

@@ -4,11 +4,11 @@ use std::path::Path;
 
 use anyhow::anyhow;
 
+use prone::regime::Regime;
 use prone::scene::Scene;
 use prone_files::{scene_file, shipped};
-use prone_sim::{LoadedRobot, RobotFiles, World};
-use prone::regime::Regime;
 use prone_record::recorded::{Recorded, RecordedRun};
+use prone_sim::{LoadedRobot, RobotFiles, World};
 
 use crate::Failure;
 use crate::args::ExportArgs;

@@ -2,16 +2,16 @@
 
 use prone::gait::{CheckedTrajectory, Gait};
 use prone_files::gait_file;
-use prone_report::figure_list::FigureList;
-use prone_report::figures::{self, ConfirmedRecord, PNG_SCALE, Scores, SearchRecord};
-use prone_study::optimize::confirm::{self, Confirmation};
-use prone_study::optimize::outcome::{self, Outcome};
-use prone_study::optimize::pricer::Aim;
-use prone_study::optimize::rules::INTERVALS;
-use prone_record::search::Search;
+use prone_record::gait_search::{self, Confirmation, Outcome, Refusal};
 use prone_record::output::Artefacts;
 use prone_record::pulls::ChainRecord;
-use prone_study::{tables, torque_study};
+use prone_record::search::Search;
+use prone_record::tables;
+use prone_report::figure_list::FigureList;
+use prone_report::figures::{self, ConfirmedRecord, PNG_SCALE, Scores, SearchRecord};
+use prone_study::optimize::pricer::Aim;
+use prone_study::optimize::rules::INTERVALS;
+use prone_study::pulls;
 
 use super::report::sentence;
 use crate::Failure;
@@ -33,9 +33,9 @@ pub(super) fn artefacts(
         gait_file::write(gait, &header).into_bytes(),
     );
     artefacts.insert("result.json".into(), pretty(outcome)?);
-    let history = outcome::history_csv(search).map_err(Failure::work)?;
+    let history = gait_search::history_csv(search).map_err(Failure::work)?;
     artefacts.insert("history.csv".into(), history);
-    let confirmation_csv = outcome::confirmation_csv(confirmation).map_err(Failure::work)?;
+    let confirmation_csv = gait_search::confirmation_csv(confirmation).map_err(Failure::work)?;
     artefacts.insert("confirmation.csv".into(), confirmation_csv);
     let scores = match pricing.aim {
         Aim::Published(_) => Scores::Published,
@@ -64,7 +64,7 @@ pub(super) fn artefacts(
 /// confirmation too, which says why.
 fn chains(gait: &Gait, others: &[Gait], pricing: &Pricing) -> Vec<ChainRecord> {
     let gaits = others.iter().chain([gait]);
-    let chains = gaits.map(|gait| torque_study::chain(&pricing.world, gait, pricing.duration));
+    let chains = gaits.map(|gait| pulls::chain(&pricing.world, gait, pricing.duration));
     chains.filter_map(Result::ok).collect()
 }
 
@@ -90,7 +90,7 @@ fn header(gait: &Gait, outcome: &Outcome, pricing: &Pricing) -> String {
     );
     lines.extend(outcome.verdicts.iter().map(sentence));
     let refused = outcome.refused.iter().map(|refused| {
-        let confirm::Refusal {
+        let Refusal {
             regime,
             gait,
             reason,

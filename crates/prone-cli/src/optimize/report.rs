@@ -3,8 +3,7 @@
 use std::io::Write as _;
 
 use prone::regime::Regime;
-use prone_study::optimize::confirm::{self, Confirmation};
-use prone_study::optimize::outcome::Outcome;
+use prone_record::gait_search::{Confirmation, Outcome, Verdict};
 
 use crate::Failure;
 use crate::args::optimize::OptimizeArgs;
@@ -95,8 +94,8 @@ pub(super) fn report(
 }
 
 /// A verdict in words, for the screen and for the gait's file.
-pub(super) fn sentence(verdict: &confirm::Verdict) -> String {
-    let confirm::Verdict {
+pub(super) fn sentence(verdict: &Verdict) -> String {
+    let Verdict {
         regime,
         against,
         cheaper_at,

@@ -5,7 +5,7 @@ use std::io::Write as _;
 use anyhow::anyhow;
 
 use prone::torque_map::{comments, parse};
-use prone_report::figure_list::FIGURES_FILE;
+use prone_record::figure_entry::FIGURES_FILE;
 use prone_record::output;
 use prone_study::torque_map::plot::{self, MapFile};
 

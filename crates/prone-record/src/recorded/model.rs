@@ -12,7 +12,7 @@ use super::error::text;
 use super::{ROWS_FILE, ReadError};
 
 /// Its file in the record folder.
-pub(crate) const MODEL_FILE: &str = "model.json";
+pub const MODEL_FILE: &str = "model.json";
 
 /// How far the length of a quaternion or an axis may be from one.
 const UNIT: f64 = 1e-6;

@@ -9,7 +9,7 @@ use super::ReadError;
 use super::error::text;
 use super::model::MODEL_FILE;
 use crate::output::RUN_FILE;
-use RUNINFO::version_name;
+use crate::program::version_name;
 
 /// Longest time between two rows, s: a record of a robot that is slower is none.
 const LONGEST_STEP_S: f64 = 10.0;

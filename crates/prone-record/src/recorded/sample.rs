@@ -1,7 +1,6 @@
 //! A small record for tests, as the program lays it out.
 
 use std::fs;
-use std::path::Path;
 
 use tempfile::TempDir;
 
@@ -57,9 +56,4 @@ pub(crate) fn folder(changes: &[(&str, Option<&str>)]) -> TempDir {
         }
     }
     home
-}
-
-/// A message with the folder's own name in it.
-pub(crate) fn without_place(message: &str, folder: &Path) -> String {
-    message.replace(&folder.display().to_string(), "RUN")
 }

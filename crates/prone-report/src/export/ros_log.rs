@@ -23,8 +23,8 @@ use glam::DVec3;
 use mcap::records::MessageHeader;
 use mcap::{McapError, WriteOptions, Writer};
 
-use prone_record::recorded::{Recorded, RecordedRow};
 use cdr::Cdr;
+use prone_record::recorded::{Recorded, RecordedRow};
 
 /// The frame in which the root moves.
 const WORLD: &str = "world";

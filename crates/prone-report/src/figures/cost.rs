@@ -5,7 +5,7 @@ use super::panel::{Curve, Panel, Rule};
 use super::sheet::{KeyEntry, Sheet};
 use super::style::{Dash, Fill, MARKER_RADIUS, Marker, REFERENCE, Stroke, gait_shape, gait_stroke};
 use super::svg::Point;
-use super::{Figure, NUMBERED, Wording, selection};
+use super::{Figure, GaitNumbers, Wording, selection};
 use prone_record::pulls::CostRecord;
 
 const NUMBER: &str = "45";
@@ -23,15 +23,15 @@ const SOURCES: [Source; 2] = [Source::Ours, Source::Published];
 type Series = Vec<(KeyEntry, Curve)>;
 
 /// Both halves; those without any point are left out.
-pub(super) fn figures(costs: &[CostRecord], reference: &str) -> Vec<Figure> {
-    [absolute(costs), ratio(costs, reference)]
+pub(super) fn figures(gaits: &[GaitNumbers], costs: &[CostRecord], reference: &str) -> Vec<Figure> {
+    [absolute(gaits, costs), ratio(gaits, costs, reference)]
         .into_iter()
         .flatten()
         .collect()
 }
 
-fn absolute(costs: &[CostRecord]) -> Option<Figure> {
-    let series = series(costs, |gait, source| {
+fn absolute(gaits: &[GaitNumbers], costs: &[CostRecord]) -> Option<Figure> {
+    let series = series(gaits, costs, |gait, source| {
         (gait.to_owned(), source.curve_of(costs, gait))
     });
     let sheet = sheet(series, "cost of one phase, N²·m²·s", &[0.0])?;
@@ -50,8 +50,8 @@ fn absolute(costs: &[CostRecord]) -> Option<Figure> {
     Some(wording.with(&sheet))
 }
 
-fn ratio(costs: &[CostRecord], reference: &str) -> Option<Figure> {
-    let series = series(costs, |gait, source| {
+fn ratio(gaits: &[GaitNumbers], costs: &[CostRecord], reference: &str) -> Option<Figure> {
+    let series = series(gaits, costs, |gait, source| {
         let own = source.curve_of(costs, gait);
         let base = source.curve_of(costs, reference);
         let curve = if gait == reference {
@@ -120,9 +120,13 @@ impl Source {
 }
 
 /// The curves `curve` makes of each gait and source, without empty ones.
-fn series(costs: &[CostRecord], curve: impl Fn(&str, Source) -> (String, Vec<Point>)) -> Series {
+fn series(
+    gaits: &[GaitNumbers],
+    costs: &[CostRecord],
+    curve: impl Fn(&str, Source) -> (String, Vec<Point>),
+) -> Series {
     let names = costs.iter().map(|cost| cost.gait.as_str());
-    let gaits = selection::gaits(names, &NUMBERED.map(|numbers| numbers.gait));
+    let gaits = selection::gaits(names, &selection::names(gaits));
     let mut series = Vec::new();
     for (index, gait) in gaits.into_iter().enumerate() {
         for source in SOURCES {

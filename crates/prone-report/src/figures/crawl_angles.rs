@@ -6,13 +6,16 @@ use super::records::{AngleRecord, AngleRow};
 use super::sheet::{KeyEntry, Sheet};
 use super::style::{BAND, CURVE_WIDTH, INK, LIGHT, Stroke};
 use super::{Figure, FigureError, Wording, check};
-use prone_thesis::published;
 
-/// One panel for each joint; nothing without rows.
+/// One panel for each joint; nothing without rows. `published` is the range that a joint swept on a
+/// robot, rad, where one is published.
 ///
 /// # Errors
 /// [`FigureError`] where a number cannot be drawn.
-pub fn figure(record: &AngleRecord) -> Result<Option<Figure>, FigureError> {
+pub fn figure(
+    record: &AngleRecord,
+    published: &dyn Fn(&str) -> Option<(f64, f64)>,
+) -> Result<Option<Figure>, FigureError> {
     check::angles(record)?;
     let AngleRecord {
         gait,
@@ -41,7 +44,7 @@ pub fn figure(record: &AngleRecord) -> Result<Option<Figure>, FigureError> {
                 marker: None,
             },
         ];
-        let band = published::crawl_range(name);
+        let band = published(name);
         any_band |= band.is_some();
         let values = curves
             .iter()

@@ -8,10 +8,10 @@ use super::style::{
 };
 use super::svg::Point;
 use super::{Figure, Wording};
-use prone_study::cycle_search::frontier::ConfirmedSetting;
-use prone_study::cycle_search::price::CycleObjective;
-use prone_study::cycle_search::record::{Found, Frontier};
-use prone_study::cycle_search::setting::SettingKind;
+use prone_record::frontier::ConfirmedSetting;
+use prone_record::frontier::CycleObjective;
+use prone_record::frontier::SettingKind;
+use prone_record::frontier::{Found, Frontier};
 
 /// The ceiling against what was reached below it; `None` where nothing was found.
 pub fn figure(frontier: &Frontier) -> Option<Figure> {

@@ -4,16 +4,16 @@ use super::axis::Axis;
 use super::panel::{Curve, Panel};
 use super::sheet::{KeyEntry, Sheet};
 use super::style::gait_stroke;
-use super::{Figure, NUMBERED, Wording, selection};
+use super::{Figure, GaitNumbers, Wording, selection};
 use prone_record::pulls::ChainRecord;
 
 const PARAMETERS: [&str; 3] = ["θ3 (knee)", "θ4 (hip)", "α (upper arm)"];
 
 /// One panel per parameter, all gaits in each.
-pub(super) fn figure(chains: &[ChainRecord]) -> Option<Figure> {
+pub(super) fn figure(gaits: &[GaitNumbers], chains: &[ChainRecord]) -> Option<Figure> {
     let names = chains.iter().filter(|chain| !chain.samples.is_empty());
     let names = names.map(|chain| chain.gait.as_str());
-    let gaits = selection::gaits(names, &NUMBERED.map(|numbers| numbers.gait));
+    let gaits = selection::gaits(names, &selection::names(gaits));
     let chains: Vec<&ChainRecord> = gaits
         .iter()
         .filter_map(|gait| chains.iter().find(|chain| chain.gait == *gait))

@@ -6,7 +6,10 @@ use resvg::usvg::{Options, Tree};
 use super::{FigureError, font, style};
 
 /// Rasterises `svg` at `scale` pixels per unit.
-pub(crate) fn png(svg: &str, scale: f32) -> Result<Vec<u8>, FigureError> {
+///
+/// # Errors
+/// [`FigureError`] where the SVG is malformed, or the size of no use.
+pub fn png(svg: &str, scale: f32) -> Result<Vec<u8>, FigureError> {
     let tree = parse(svg)?;
     let mut pixels = blank(
         tree.size().width() * scale,
@@ -22,7 +25,10 @@ pub(crate) fn png(svg: &str, scale: f32) -> Result<Vec<u8>, FigureError> {
 }
 
 /// Draws `svg` over a picture of the same size, 8-bit RGB by rows, and encodes both as PNG.
-pub(crate) fn png_over(
+///
+/// # Errors
+/// [`FigureError`] where the SVG is malformed, or the size of no use.
+pub fn png_over(
     svg: &str,
     (width, height): (usize, usize),
     rgb: &[u8],

@@ -1,11 +1,8 @@
 //! What is drawn of a search, a confirmation and a crawl: figures are drawn from these, and checked
 //! before.
 
-use prone::robot::Robot;
-use prone_sim::crawl::Crawl;
-
-use prone_study::optimize::confirm::Confirmation;
 use prone::cost::objective::Objective;
+use prone_record::gait_search::Confirmation;
 use prone_record::search::Search;
 use prone_record::tables::as_written;
 
@@ -127,27 +124,4 @@ pub struct AngleRow {
 impl AngleRecord {
     /// How many cycles are shown.
     pub const CYCLES: usize = 4;
-
-    /// The left chain of a crawl that was simulated with rows, to the digits of `rows.csv`.
-    pub fn of(robot: &Robot, gait: &str, crawl: &Crawl) -> Self {
-        let joints = robot.chain.left.commanded_joints();
-        let rows = crawl.rows.iter().filter(|row| row.cycle < Self::CYCLES);
-        let rows = rows.map(|row| AngleRow {
-            time_s: as_written(row.time, 4),
-            command_rad: joints
-                .map(|joint| as_written(row.command[joint], 6))
-                .to_vec(),
-            angle_rad: joints
-                .map(|joint| as_written(row.angles[joint], 6))
-                .to_vec(),
-        });
-        Self {
-            gait: gait.to_owned(),
-            joints: joints
-                .map(|joint| robot.joints[joint.0].name.clone())
-                .to_vec(),
-            rows: rows.collect(),
-            cycles: Self::CYCLES.min(crawl.cycles.len()),
-        }
-    }
 }

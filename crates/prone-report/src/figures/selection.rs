@@ -2,6 +2,8 @@
 
 use prone_record::pulls::PullRecord;
 
+use super::GaitNumbers;
+
 /// Durations closer than this are the same, s.
 const SAME_DURATION_S: f64 = 1e-9;
 
@@ -37,6 +39,11 @@ pub(super) fn nearest<T: Copy>(
     }
     chosen.sort_by_key(|item| item.0);
     chosen.into_iter().map(|item| item.1).collect()
+}
+
+/// Names of a publication's gaits.
+pub(super) fn names(gaits: &[GaitNumbers]) -> Vec<&'static str> {
+    gaits.iter().map(|numbers| numbers.gait).collect()
 }
 
 /// The names in order of appearance, `first` ones foremost, each once.

@@ -7,6 +7,42 @@ use prone_record::pulls::{ChainSample, PullRow};
 
 const ALL_S: [f64; 10] = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0];
 
+/// Gaits as a publication has them.
+const NUMBERED: [GaitNumbers; 2] = [
+    GaitNumbers {
+        gait: "nominal",
+        chain: "26",
+        frames: "27",
+        torque: torque::Numbers {
+            by_duration: "36",
+            time: "38",
+            transient: "40",
+            cycle: "42",
+        },
+        published_divergence_s: 0.25,
+    },
+    GaitNumbers {
+        gait: "optimal",
+        chain: "34",
+        frames: "35",
+        torque: torque::Numbers {
+            by_duration: "37",
+            time: "39",
+            transient: "41",
+            cycle: "43",
+        },
+        published_divergence_s: 0.175,
+    },
+];
+
+fn drawn(
+    chains: &[ChainRecord],
+    pulls: &[PullRecord],
+    costs: &[CostRecord],
+) -> Result<Vec<Figure>, FigureError> {
+    study_figures(&NUMBERED, chains, pulls, costs)
+}
+
 fn pull(gait: &str, duration_s: f64) -> PullRecord {
     let row = |step: u32| {
         let cycle = f64::from(step) / 20.0;
@@ -90,7 +126,7 @@ fn draw(durations_s: &[f64], gaits: &[&str]) -> Vec<Figure> {
         })
         .collect();
     let chains: Vec<ChainRecord> = gaits.iter().map(|gait| chain(gait)).collect();
-    study_figures(&chains, &pulls, &costs).unwrap()
+    drawn(&chains, &pulls, &costs).unwrap()
 }
 
 fn stems(figures: &[Figure]) -> Vec<&str> {
@@ -151,7 +187,7 @@ fn a_missing_gait_leaves_its_figures_out() {
     assert!(figures.iter().all(|figure| figure.number != "44"));
     let parameters = &figures[0].svg;
     assert!(parameters.contains("ours gait"));
-    assert!(study_figures(&[], &[], &[]).unwrap().is_empty());
+    assert!(drawn(&[], &[], &[]).unwrap().is_empty());
     assert!(
         draw(&[], &["nominal"])
             .iter()
@@ -169,10 +205,10 @@ fn records_without_rows_or_samples_are_passed_over() {
         samples: Vec::new(),
         ..chain("nominal")
     };
-    assert!(study_figures(&[chain], &[pull], &[]).unwrap().is_empty());
+    assert!(drawn(&[chain], &[pull], &[]).unwrap().is_empty());
     let mut single = self::chain("nominal");
     single.samples.truncate(1);
-    assert_eq!(study_figures(&[single], &[], &[]).unwrap().len(), 2);
+    assert_eq!(drawn(&[single], &[], &[]).unwrap().len(), 2);
 }
 
 #[test]
@@ -262,7 +298,7 @@ fn senseless_scales_are_refused() {
 fn numbers_no_axis_can_show_are_named() {
     let mut broken = pull("nominal", 5.0);
     broken.rows[7].torque_nm[1] = f64::NAN;
-    let error = study_figures(&[], &[broken], &[]).unwrap_err().to_string();
+    let error = drawn(&[], &[broken], &[]).unwrap_err().to_string();
     assert_eq!(
         error,
         "knee torque of nominal, 5 s, row 7: NaN cannot be drawn"
@@ -271,7 +307,7 @@ fn numbers_no_axis_can_show_are_named() {
         duration_s: 0.0,
         ..pull("nominal", 5.0)
     };
-    assert!(study_figures(&[], &[timeless], &[]).is_err());
+    assert!(drawn(&[], &[timeless], &[]).is_err());
 }
 
 #[test]

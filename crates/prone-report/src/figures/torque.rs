@@ -22,11 +22,16 @@ const PANEL_DURATIONS_S: [f64; 6] = [1.0, 2.0, 3.0, 5.0, 7.0, 10.0];
 const TRANSIENT_S: f64 = 0.5;
 
 /// Numbers of the originals for one gait.
-pub(super) struct Numbers {
-    pub(super) by_duration: &'static str,
-    pub(super) time: &'static str,
-    pub(super) transient: &'static str,
-    pub(super) cycle: &'static str,
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Numbers {
+    /// Mean torques by duration.
+    pub by_duration: &'static str,
+    /// Torques over time, by joint.
+    pub time: &'static str,
+    /// Their beginning.
+    pub transient: &'static str,
+    /// Torques over the phase.
+    pub cycle: &'static str,
 }
 
 /// What a figure with one panel per joint has on its x axis.

@@ -6,7 +6,7 @@
 use serde::Serialize;
 
 use super::crawl_run::CrawlRun;
-use prone_study::crawl::joints::JointSummary;
+use prone_record::crawl_summary::JointSummary;
 
 /// A joint with a smaller share of the heat is not listed by itself.
 const LISTED_HEAT: f64 = 0.01;

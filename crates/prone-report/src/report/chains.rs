@@ -7,7 +7,10 @@ use prone_record::pulls::{CHAIN_POINTS, ChainRecord, ChainSample};
 
 /// Planned chains in the order of the file; `expected` are the gaits that must be there, if it is
 /// known which.
-pub(super) fn read(
+///
+/// # Errors
+/// [`ReportError`] where the table is missing or lacks a column.
+pub fn read(
     folder: &Folder,
     expected: Option<&[&str]>,
     cuts: &mut Vec<Cut>,

@@ -4,11 +4,12 @@ use serde::Deserialize;
 
 use super::ReportError;
 use super::folder::Folder;
-use prone_study::crawl::CrawlSummary;
-use crate::figure_list::FigureEntry;
+use super::publication::Publication;
 use crate::figures::{AngleRecord, AngleRow, Figure, crawl_angles};
-use prone_record::recorded::{Command, MODEL_FILE, Part, Recorded};
 use crate::view;
+use prone_record::crawl_summary::CrawlSummary;
+use prone_record::figure_entry::FigureEntry;
+use prone_record::recorded::{Command, MODEL_FILE, Part, Recorded};
 
 /// What a pull of a reproduction left behind: it can be replayed.
 pub(super) struct PullRun {
@@ -94,10 +95,15 @@ impl CrawlRun {
     }
 
     /// Figure 31, drawn from the rows.
-    pub(super) fn drawing(&self) -> Result<Option<Figure>, ReportError> {
-        crawl_angles(&self.angles).map_err(|source| ReportError::Figure {
-            run: self.folder.name.clone(),
-            source,
+    pub(super) fn drawing(
+        &self,
+        publication: &dyn Publication,
+    ) -> Result<Option<Figure>, ReportError> {
+        crawl_angles(&self.angles, &|joint| publication.joint_range(joint)).map_err(|source| {
+            ReportError::Figure {
+                run: self.folder.name.clone(),
+                source,
+            }
         })
     }
 }

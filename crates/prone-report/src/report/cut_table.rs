@@ -7,18 +7,18 @@ use super::ReportError;
 /// Where a table can be used no further.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{file}, line {line}: {damage}")]
-pub(super) struct Cut {
+pub struct Cut {
     /// Its path, beginning with the folder as it was named.
-    pub(super) file: String,
+    pub file: String,
     /// The first line that cannot be used, from 1.
-    pub(super) line: usize,
+    pub line: usize,
     /// What is wrong there.
-    pub(super) damage: Damage,
+    pub damage: Damage,
 }
 
 /// What is wrong with a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-pub(super) enum Damage {
+pub enum Damage {
     /// The line is not whole, or holds what is no value of this table.
     #[error("the line is not whole; what stands before it is shown")]
     Line,
@@ -29,7 +29,7 @@ pub(super) enum Damage {
 
 /// A table as text, up to its first incomplete line.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct CutTable {
+pub struct CutTable {
     path: PathBuf,
     /// How the file is called in the report.
     name: String,
@@ -40,20 +40,21 @@ pub(super) struct CutTable {
 }
 
 /// A line, read by the names of its columns.
-pub(super) struct Line<'a> {
+pub struct Line<'a> {
     cells: &'a [String],
 }
 
 /// A cell that is neither empty nor a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct NoNumber;
+pub struct NoNumber;
 
 /// A column that the table is known to have.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Column(usize);
+pub struct Column(usize);
 
 impl CutTable {
-    pub(super) fn read(path: PathBuf, name: String, text: &str) -> Self {
+    /// Splits a text into lines and cells.
+    pub fn read(path: PathBuf, name: String, text: &str) -> Self {
         let whole = text.ends_with('\n');
         let count = text.lines().count();
         let mut reader = csv::ReaderBuilder::new()
@@ -92,7 +93,11 @@ impl CutTable {
         }
     }
 
-    pub(super) fn column(&self, column: &str) -> Result<Column, ReportError> {
+    /// Where a column is.
+    ///
+    /// # Errors
+    /// [`ReportError::Column`].
+    pub fn column(&self, column: &str) -> Result<Column, ReportError> {
         let place = self.header.iter().position(|known| known == column);
         place.map(Column).ok_or_else(|| ReportError::Column {
             file: self.path.clone(),
@@ -100,10 +105,11 @@ impl CutTable {
         })
     }
 
-    pub(super) fn columns<const N: usize>(
-        &self,
-        columns: [&str; N],
-    ) -> Result<[Column; N], ReportError> {
+    /// Where some columns are.
+    ///
+    /// # Errors
+    /// [`ReportError::Column`].
+    pub fn columns<const N: usize>(&self, columns: [&str; N]) -> Result<[Column; N], ReportError> {
         let mut found = [Column(0); N];
         for (found, column) in found.iter_mut().zip(columns) {
             *found = self.column(column)?;
@@ -112,7 +118,7 @@ impl CutTable {
     }
 
     /// Every line that `read` takes, up to the first that it does not; the table ends there.
-    pub(super) fn rows<T>(&mut self, mut read: impl FnMut(&Line<'_>) -> Option<T>) -> Vec<T> {
+    pub fn rows<T>(&mut self, mut read: impl FnMut(&Line<'_>) -> Option<T>) -> Vec<T> {
         let mut rows = Vec::new();
         for (line, cells) in &self.lines {
             let Some(row) = read(&Line { cells }) else {
@@ -125,7 +131,7 @@ impl CutTable {
     }
 
     /// Says that the table is not whole although every line is, because something is missing.
-    pub(super) fn end_early(&mut self) {
+    pub fn end_early(&mut self) {
         if self.cut.is_none() {
             let line = self.lines.last().map_or(2, |(line, _)| line + 1);
             self.cut = Some((line, Damage::Missing));
@@ -133,7 +139,7 @@ impl CutTable {
     }
 
     /// Where it breaks off, if it does.
-    pub(super) fn cut(&self) -> Option<Cut> {
+    pub fn cut(&self) -> Option<Cut> {
         self.cut.map(|(line, damage)| Cut {
             file: self.name.clone(),
             line,
@@ -143,18 +149,19 @@ impl CutTable {
 }
 
 impl<'a> Line<'a> {
-    pub(super) fn text(&self, Column(column): Column) -> &'a str {
+    /// What stands in a column.
+    pub fn text(&self, Column(column): Column) -> &'a str {
         &self.cells[column]
     }
 
     /// A number that is not infinite.
-    pub(super) fn number(&self, column: Column) -> Option<f64> {
+    pub fn number(&self, column: Column) -> Option<f64> {
         let number: f64 = self.text(column).parse().ok()?;
         number.is_finite().then_some(number)
     }
 
     /// The numbers of some columns.
-    pub(super) fn numbers<const N: usize>(&self, columns: [Column; N]) -> Option<[f64; N]> {
+    pub fn numbers<const N: usize>(&self, columns: [Column; N]) -> Option<[f64; N]> {
         let mut numbers = [0.0; N];
         for (number, column) in numbers.iter_mut().zip(columns) {
             *number = self.number(column)?;
@@ -163,7 +170,10 @@ impl<'a> Line<'a> {
     }
 
     /// A number, or nothing where the cell is empty.
-    pub(super) fn optional(&self, column: Column) -> Result<Option<f64>, NoNumber> {
+    ///
+    /// # Errors
+    /// [`NoNumber`] where something else stands there.
+    pub fn optional(&self, column: Column) -> Result<Option<f64>, NoNumber> {
         if self.text(column).is_empty() {
             Ok(None)
         } else {
@@ -172,7 +182,7 @@ impl<'a> Line<'a> {
     }
 
     /// A whole number.
-    pub(super) fn whole(&self, column: Column) -> Option<u64> {
+    pub fn whole(&self, column: Column) -> Option<u64> {
         self.text(column).parse().ok()
     }
 }

@@ -6,10 +6,10 @@ use serde::Deserialize;
 use super::ReportError;
 use super::cut_table::Cut;
 use super::folder::Folder;
-use prone_study::cycle_search::frontier::Confirmed;
-use prone_study::cycle_search::price::CycleObjective;
-use crate::figure_list::FigureEntry;
 use crate::figures::{Figure, GenerationRecord, Scores, SearchRecord, generations};
+use prone_record::figure_entry::FigureEntry;
+use prone_record::frontier::Confirmed;
+use prone_record::frontier::CycleObjective;
 
 /// What such a command left behind.
 pub(super) struct DrawnRun {

@@ -9,7 +9,7 @@ use serde_json::Value;
 
 use super::ReportError;
 use super::cut_table::CutTable;
-use crate::figure_list::{FIGURES_FILE, FigureEntry};
+use prone_record::figure_entry::{FIGURES_FILE, FigureEntry};
 use prone_record::output::RUN_FILE;
 
 /// How a folder came to be read.
@@ -23,19 +23,20 @@ pub(super) enum Given {
 
 /// A result folder of this version of the program.
 #[derive(Debug, Clone)]
-pub(super) struct Folder {
+pub struct Folder {
     /// How it is called in the report.
-    pub(super) name: String,
-    pub(super) path: PathBuf,
+    pub name: String,
+    /// Where it is.
+    pub path: PathBuf,
     pub(super) given: Given,
     /// What made it, without the program's name.
-    pub(super) command: String,
+    pub command: String,
     /// From which the program was built that made it.
-    pub(super) commit: String,
+    pub commit: String,
     /// The engine of that program, where it says.
-    pub(super) engine: Option<String>,
+    pub engine: Option<String>,
     /// All of `run.json`.
-    pub(super) run: Value,
+    pub run: Value,
 }
 
 #[derive(Deserialize)]
@@ -94,7 +95,7 @@ impl Folder {
     }
 
     /// A word or number of `run.json`.
-    pub(super) fn said(&self, pointer: &str) -> Option<String> {
+    pub fn said(&self, pointer: &str) -> Option<String> {
         match self.run.pointer(pointer)? {
             Value::Null => None,
             Value::String(text) => Some(text.clone()),
@@ -103,7 +104,7 @@ impl Folder {
     }
 
     /// Folders of records within this one.
-    pub(super) fn records(&self) -> Vec<String> {
+    pub fn records(&self) -> Vec<String> {
         let mut found = Vec::new();
         for group in ["crawls", "pulls"] {
             let Ok(entries) = fs::read_dir(self.path.join(group)) else {
@@ -123,21 +124,31 @@ impl Folder {
     }
 
     /// All of `run.json`.
-    pub(super) fn run<T: DeserializeOwned>(&self) -> Result<T, ReportError> {
+    ///
+    /// # Errors
+    /// [`ReportError`] where it is not what that command writes.
+    pub fn run<T: DeserializeOwned>(&self) -> Result<T, ReportError> {
         serde_json::from_value(self.run.clone()).map_err(|source| ReportError::Json {
             file: self.path.join(RUN_FILE),
             source,
         })
     }
 
-    pub(super) fn json<T: DeserializeOwned>(&self, file: &str) -> Result<T, ReportError> {
+    /// A JSON file.
+    ///
+    /// # Errors
+    /// [`ReportError`] where it is missing or malformed.
+    pub fn json<T: DeserializeOwned>(&self, file: &str) -> Result<T, ReportError> {
         let path = self.file(file)?;
         serde_json::from_str(&text(&path)?)
             .map_err(|source| ReportError::Json { file: path, source })
     }
 
     /// A table, up to where it breaks off.
-    pub(super) fn table(&self, file: &str) -> Result<CutTable, ReportError> {
+    ///
+    /// # Errors
+    /// [`ReportError`] where it is missing.
+    pub fn table(&self, file: &str) -> Result<CutTable, ReportError> {
         let path = self.file(file)?;
         // What breaks off may break off within a letter.
         let bytes = fs::read(&path).map_err(|source| ReportError::Read {
@@ -151,13 +162,20 @@ impl Folder {
         ))
     }
 
-    pub(super) fn bytes(&self, file: &str) -> Result<Vec<u8>, ReportError> {
+    /// A file as it is.
+    ///
+    /// # Errors
+    /// [`ReportError`] where it is missing.
+    pub fn bytes(&self, file: &str) -> Result<Vec<u8>, ReportError> {
         let path = self.file(file)?;
         fs::read(&path).map_err(|source| ReportError::Read { file: path, source })
     }
 
     /// The drawings and pictures that the command made.
-    pub(super) fn figures(&self) -> Result<Vec<FigureEntry>, ReportError> {
+    ///
+    /// # Errors
+    /// [`ReportError`] where its list is missing or malformed.
+    pub fn figures(&self) -> Result<Vec<FigureEntry>, ReportError> {
         self.json(FIGURES_FILE)
     }
 

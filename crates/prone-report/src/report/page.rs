@@ -6,22 +6,22 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD as BASE64;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::chapter::{self, MadeBy, Part, Place};
 use super::folder::Given;
+use super::publication::{MadeBy, Part, Place, Publication, PublishedRun};
 use super::shown::{Image, Shown};
-use super::study::StudyRun;
 use super::{
-    Card, LARGEST_PAGE, ReportError, Run, card_sections, parameter_tables, replay, run_sections,
-    sections,
+    Card, LARGEST_PAGE, ReportError, Run, card_sections, curve_tables, replay, run_sections,
 };
 use crate::page_head;
-use prone_thesis::published;
 
 const STYLE: &str = include_str!("style.css");
 
 /// Nothing leaves the page, and nothing comes to it. The frame of the replay inherits this.
 const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; \
                       img-src data:; base-uri 'none'; form-action 'none'";
+
+/// Number of the figure that shows what gaits are made of; their tables follow it.
+const CURVES: &str = "25";
 
 /// What stands around the sections, at most, bytes; and in the place of a picture.
 const AROUND: usize = 4_000;
@@ -32,6 +32,7 @@ pub(super) struct Page<'a> {
     pub(super) runs: &'a [Run],
     pub(super) shown: &'a [Shown],
     pub(super) cards: &'a [Card],
+    pub(super) publication: &'a dyn Publication,
     /// Names of the pictures for which it has no room.
     pub(super) left_out: BTreeSet<String>,
 }
@@ -95,7 +96,7 @@ impl Page<'_> {
     fn above(&self) -> Markup {
         html! {
             (self.shortfalls())
-            @for study in self.studies() { (sections::results(&study.summary)) }
+            @for run in self.published() { (run.results()) }
             (card_sections::all(self.cards))
         }
     }
@@ -103,16 +104,8 @@ impl Page<'_> {
     /// What is after it.
     fn below(&self) -> Markup {
         html! {
-            @for part in &chapter::PARTS { (self.part(part)) }
-            @for study in self.studies() {
-                (sections::costs(&study.summary))
-                (sections::agreement(&study.summary))
-                (sections::contacts(&study.summary))
-                (sections::stride(&study.summary))
-                (sections::clamps(&study.summary))
-                (sections::mappings(&study.summary))
-                (sections::differences())
-            }
+            @for part in self.publication.parts() { (self.part(part)) }
+            @for run in self.published() { (run.sections()) }
             (run_sections::searches(self.runs))
             (self.beyond())
             (run_sections::what_was_run(self.runs))
@@ -122,10 +115,9 @@ impl Page<'_> {
     fn header(&self) -> Markup {
         html! {
             header {
-                h1 { "The Projected Profile crawl: report" }
+                h1 { (self.publication.title()) }
                 p.lead {
-                    "Made from the records of " (self.titles().join("; ")) ". Figures are numbered as in chapter 5 of the \
-                     master's thesis that published this crawl (NYU Polytechnic, 2015). "
+                    "Made from the records of " (self.titles().join("; ")) ". " (self.publication.lead()) " "
                     strong { "Ours" } " is what this program simulated; " strong { "published" }
                     " is the thesis; " strong { "theirs" } " is somebody else's. No robot took part."
                 }
@@ -154,9 +146,9 @@ impl Page<'_> {
         }
     }
 
-    fn studies(&self) -> impl Iterator<Item = &StudyRun> {
+    fn published(&self) -> impl Iterator<Item = &dyn PublishedRun> {
         self.runs.iter().filter_map(|run| match run {
-            Run::Study(study) => Some(study.as_ref()),
+            Run::Published(_, run) => Some(run.as_ref()),
             _ => None,
         })
     }
@@ -166,9 +158,9 @@ impl Page<'_> {
             section {
                 h2 { (part.title) }
                 p { (part.lead) }
-                @for place in part.places {
+                @for place in &part.places {
                     (self.place(place))
-                    (self.tables_after(place.number))
+                    (self.tables_after(&place.number))
                 }
             }
         }
@@ -185,7 +177,7 @@ impl Page<'_> {
             @if figures.is_empty() { (empty(place)) }
             // What is published stands below the first of several.
             @for (index, figure) in figures.iter().enumerate() {
-                (self.captioned(figure, place.published.filter(|_| index == 0)))
+                (self.captioned(figure, place.published.as_deref().filter(|_| index == 0)))
             }
         }
     }
@@ -193,24 +185,14 @@ impl Page<'_> {
     /// Tables of the chapter that follow a figure.
     fn tables_after(&self, number: &str) -> Markup {
         html! {
-            @if number == "25" {
-                @for study in self.studies() {
-                    @for gait in &study.info.options.gaits {
-                        @if gait.name == published::NOMINAL { (parameter_tables::nominal(&gait.curves)) }
-                        @if gait.name == published::OPTIMAL { (parameter_tables::optimal(&gait.curves)) }
-                    }
-                }
+            @for run in self.published() { (run.tables_after(number)) }
+            @if number == CURVES {
                 @for run in self.runs {
                     @if let Run::Search(search) = run {
-                        (parameter_tables::found(
+                        (curve_tables::found(
                             &search.result.gait, &search.folder.name, &search.result.curves,
                         ))
                     }
-                }
-            }
-            @if number == "28" {
-                @for study in self.studies() {
-                    @if !study.summary.table.is_empty() { (sections::table_crawl(&study.summary)) }
                 }
             }
         }
@@ -312,7 +294,7 @@ fn empty(place: &Place) -> Markup {
         div.place id={ "place-" (place.number) } {
             p {
                 strong { "Figure " (place.number) ": " (place.shows) ". " }
-                @match place.made_by {
+                @match &place.made_by {
                     MadeBy::Command(command) => {
                         "Not among these runs. " code { (command) } " makes it; give its folder to "
                         code { "prone report" } "."
@@ -322,7 +304,7 @@ fn empty(place: &Place) -> Markup {
                     }
                 }
             }
-            @if let Some(published) = place.published { p { (published) } }
+            @if let Some(published) = &place.published { p { (published) } }
         }
     }
 }
@@ -350,7 +332,59 @@ fn inline(svg: &str) -> &str {
 
 #[cfg(test)]
 mod tests {
+    use super::super::publication::Unpublished;
     use super::*;
+    use crate::figures::GaitNumbers;
+    use crate::report::Folder;
+
+    /// Two sections of four figures, the last of which takes a robot.
+    struct Chapter(Vec<Part>);
+
+    impl Chapter {
+        fn new() -> Self {
+            let place = |number: u32| Place {
+                number: number.to_string(),
+                shows: format!("figure {number}"),
+                made_by: match number {
+                    29 => MadeBy::Robot,
+                    _ => MadeBy::Command("prone reproduce".to_owned()),
+                },
+                published: None,
+            };
+            let part = |numbers: std::ops::Range<u32>| Part {
+                title: "A section".to_owned(),
+                lead: "What is in it.".to_owned(),
+                places: numbers.map(place).collect(),
+            };
+            Self(vec![part(22..26), part(26..30)])
+        }
+    }
+
+    impl Publication for Chapter {
+        fn title(&self) -> &'static str {
+            "A chapter"
+        }
+
+        fn lead(&self) -> &'static str {
+            "Numbers are its own."
+        }
+
+        fn parts(&self) -> &[Part] {
+            &self.0
+        }
+
+        fn gaits(&self) -> &[GaitNumbers] {
+            &[]
+        }
+
+        fn joint_range(&self, _: &str) -> Option<(f64, f64)> {
+            None
+        }
+
+        fn read(&self, _: &Folder) -> Option<Result<Box<dyn PublishedRun>, ReportError>> {
+            None
+        }
+    }
 
     fn picture(number: &str, bytes: usize) -> Shown {
         Shown {
@@ -373,6 +407,7 @@ mod tests {
             runs: &[],
             shown,
             cards: &[],
+            publication: &Chapter::new(),
             left_out: BTreeSet::new(),
         };
         page.html().unwrap().0
@@ -394,10 +429,18 @@ mod tests {
     #[test]
     fn places_without_figures_say_what_fills_them() {
         let empty = page(&[]);
-        assert_eq!(
-            empty.matches("class=\"place\"").count(),
-            chapter::places().count()
-        );
+        assert_eq!(empty.matches("class=\"place\"").count(), 8,);
         assert!(empty.contains("<code>prone reproduce</code> makes it"));
+        assert_eq!(empty.matches("Comes with a robot on the wire").count(), 1);
+        // Held against nothing, a page has no places.
+        let page = Page {
+            runs: &[],
+            shown: &[],
+            cards: &[],
+            publication: &Unpublished,
+            left_out: BTreeSet::new(),
+        };
+        let (bare, _) = page.html().unwrap();
+        assert_eq!(bare.matches("class=\"place\"").count(), 0);
     }
 }

@@ -32,7 +32,7 @@ pub(super) fn of(runs: &[Run], room: usize) -> Result<Option<Replay>, ReportErro
         let (folder, replay, within) = match run {
             Run::Crawl(crawl) => (&crawl.folder, &crawl.replay, 2),
             Run::Pull(pull) => (&pull.folder, &pull.replay, 1),
-            Run::Study(_) | Run::Search(_) | Run::Drawn(_) => return None,
+            Run::Published(..) | Run::Search(_) | Run::Drawn(_) => return None,
         };
         let place = match folder.given {
             Given::Named => 0,

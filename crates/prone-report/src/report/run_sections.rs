@@ -2,17 +2,17 @@
 
 use maud::{Markup, html};
 
+use super::Run;
 use super::drawn_run::{CycleResult, FoundCycle};
 use super::folder::Given;
 use super::search_run::SearchRun;
-use super::{Run, sections};
 
 /// What searches found; nothing without searches.
 pub(super) fn searches(runs: &[Run]) -> Markup {
     let any = runs.iter().any(|run| match run {
         Run::Search(_) => true,
         Run::Drawn(run) => run.cycles.is_some(),
-        Run::Study(_) | Run::Crawl(_) | Run::Pull(_) => false,
+        Run::Published(..) | Run::Crawl(_) | Run::Pull(_) => false,
     });
     html! {
         @if any {
@@ -24,7 +24,7 @@ pub(super) fn searches(runs: &[Run]) -> Markup {
                         Run::Drawn(drawn) => {
                             @if let Some(cycles) = &drawn.cycles { (found(&drawn.folder.name, cycles)) }
                         }
-                        Run::Study(_) | Run::Crawl(_) | Run::Pull(_) => {}
+                        Run::Published(..) | Run::Crawl(_) | Run::Pull(_) => {}
                     }
                 }
             }
@@ -68,8 +68,8 @@ fn pulls(search: &SearchRun) -> Markup {
                 th scope="row" { (verdict.regime) }
                 td { (verdict.against) }
                 td { (verdict.cheaper_at) " of " (verdict.of) }
-                td { (sections::optional(verdict.best_ratio, |ratio| format!("{ratio:.3}"))) }
-                td { (sections::optional(verdict.worst_ratio, |ratio| format!("{ratio:.3}"))) }
+                td { (optional(verdict.best_ratio, |ratio| format!("{ratio:.3}"))) }
+                td { (optional(verdict.worst_ratio, |ratio| format!("{ratio:.3}"))) }
             } } }
         } }
     }
@@ -79,7 +79,7 @@ fn pulls(search: &SearchRun) -> Markup {
 fn found(name: &str, result: &CycleResult) -> Markup {
     let first = |found: &FoundCycle, of: fn(&_) -> Option<f64>, decimals: usize| {
         let row = found.confirmed.settings.first();
-        sections::optional(row.and_then(of), |value| format!("{value:.decimals$}"))
+        optional(row.and_then(of), |value| format!("{value:.decimals$}"))
     };
     html! {
         div.scroll { table {
@@ -95,10 +95,10 @@ fn found(name: &str, result: &CycleResult) -> Markup {
             ] { th scope="col" { (head) } } } }
             tbody { @for found in &result.found { tr {
                 th scope="row" { (found.gait) }
-                td { (sections::optional(found.ceiling_mm, |height| format!("{height:.0} mm"))) }
+                td { (optional(found.ceiling_mm, |height| format!("{height:.0} mm"))) }
                 td { (found.seed) }
                 td { (found.evaluations) }
-                td { (first(found, |row: &prone_study::cycle_search::frontier::ConfirmedSetting| row.mm_per_cycle, 1)) " mm" }
+                td { (first(found, |row: &prone_record::frontier::ConfirmedSetting| row.mm_per_cycle, 1)) " mm" }
                 td { (first(found, |row| row.mm_per_s, 1)) " mm/s" }
                 td { (first(found, |row| row.top_mm, 0)) " mm" }
                 td { (first(found, |row| row.heat_per_metre_s, 0)) " s/m" }
@@ -124,7 +124,7 @@ pub(super) fn what_was_run(runs: &[Run]) -> Markup {
                     dt { "command" } dd { "prone " (folder.command) ", built from commit " (folder.commit) }
                     @if let Some(engine) = &folder.engine { dt { "engine" } dd { (engine) } }
                     @match run {
-                        Run::Study(study) => { (sections::study_facts(&study.info)) }
+                        Run::Published(_, run) => { (run.facts()) }
                         Run::Crawl(_) | Run::Pull(_) | Run::Search(_) | Run::Drawn(_) => {
                             @for (label, pointer) in FACTS {
                                 @if let Some(value) = folder.said(pointer) {
@@ -166,3 +166,8 @@ const FACTS: [(&str, &str); 24] = [
     ("budget, evaluations", "/budget"),
     ("map", "/map"),
 ];
+
+/// A value, or a dash.
+fn optional(value: Option<f64>, show: impl Fn(f64) -> String) -> String {
+    value.map_or_else(|| "–".to_owned(), show)
+}

@@ -5,10 +5,10 @@ use serde::Deserialize;
 use super::cut_table::Cut;
 use super::folder::Folder;
 use super::{ReportError, chains};
-use prone_record::curves_info::CurvesInfo;
 use crate::figures::{
     ConfirmedRecord, Figure, GenerationRecord, Scores, SearchRecord, confirmation, generations,
 };
+use prone_record::curves_info::CurvesInfo;
 use prone_record::pulls::ChainRecord;
 
 /// What a search of pulls left behind.

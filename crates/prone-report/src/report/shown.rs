@@ -5,9 +5,10 @@ use std::collections::BTreeSet;
 use rayon::prelude::*;
 
 use super::folder::Folder;
+use super::publication::Publication;
 use super::{ReportError, Run, picture};
-use crate::figure_list::FigureEntry;
 use crate::figures::{self, Figure};
+use prone_record::figure_entry::FigureEntry;
 
 /// One figure of a report.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,21 +44,24 @@ pub(super) enum Image {
 }
 
 /// Every figure of some runs, in their order.
-pub(super) fn of(runs: &[Run]) -> Result<Vec<Shown>, ReportError> {
+pub(super) fn of(runs: &[Run], publication: &dyn Publication) -> Result<Vec<Shown>, ReportError> {
     let mut found = Vec::new();
     for run in runs {
         match run {
-            Run::Study(run) => {
-                let drawings = run.drawings()?;
-                add(&mut found, &run.folder, drawings, &run.recorded)?;
+            Run::Published(folder, run) => {
+                let drawings = run.drawings().map_err(|source| ReportError::Figure {
+                    run: folder.name.clone(),
+                    source,
+                })?;
+                add(&mut found, folder, drawings, run.recorded())?;
             }
             Run::Crawl(run) => {
-                let drawings = run.drawing()?.into_iter().collect();
+                let drawings = run.drawing(publication)?.into_iter().collect();
                 add(&mut found, &run.folder, drawings, &run.recorded)?;
             }
             Run::Search(run) => {
                 let mut drawings = run.drawings()?;
-                drawings.extend(figures::parameters(&run.chains));
+                drawings.extend(figures::parameters(publication.gaits(), &run.chains));
                 add(&mut found, &run.folder, drawings, &[])?;
             }
             Run::Drawn(run) => {

@@ -9,8 +9,9 @@ use prone::steering::Bearing;
 use super::effort::{Effort, MotorStep};
 use super::touch::{Touch, Touches};
 use super::{Detail, ROW_STEP};
-use crate::simulation::{ContactForce, Simulation, Snapshot};
+use crate::simulation::{Simulation, Snapshot};
 use crate::world::World;
+use prone::scene::ContactForce;
 
 /// One instant of a crawl.
 #[derive(Debug, Clone, PartialEq)]

@@ -9,8 +9,9 @@ use prone_files::shipped;
 
 use super::*;
 use crate::pull::{self, Start};
+use crate::{LoadedRobot, Placement, RobotFiles};
+use prone::regime::Regime;
 use prone::regime::TIME_STEP;
-use crate::{LoadedRobot, Placement, Regime, RobotFiles};
 
 /// The shipped robot in a world whose floor rises by `slope`, rad, in the direction of travel: seen
 /// from the floor, gravity is tilted.

@@ -5,7 +5,8 @@ use prone::robot::Solid;
 use prone_files::shipped;
 
 use super::*;
-use crate::{LoadedRobot, Regime, RobotFiles};
+use crate::{LoadedRobot, RobotFiles};
+use prone::regime::Regime;
 
 fn nao() -> World {
     let loaded = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();

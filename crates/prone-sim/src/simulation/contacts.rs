@@ -4,6 +4,7 @@ use glam::{DMat3, DVec3};
 
 use prone::frames::{Ground, Point};
 use prone::robot::BodyId;
+use prone::scene::ContactForce;
 
 use super::Simulation;
 use crate::world::GeomRole;

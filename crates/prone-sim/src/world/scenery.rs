@@ -143,7 +143,8 @@ mod tests {
     use mujoco_rs::prelude::MjData;
 
     use super::*;
-    use crate::{LoadedRobot, Regime, RobotFiles, World};
+    use crate::{LoadedRobot, RobotFiles, World};
+    use prone::regime::Regime;
     use prone_files::shipped;
 
     /// A ray from above meets the ground where the grid of heights says.

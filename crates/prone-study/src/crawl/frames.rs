@@ -51,18 +51,20 @@ const DISTANCE: f64 = 2.5;
 const RISE: f64 = 0.13;
 
 /// All pictures of a crawl with rows.
-pub(crate) fn all(world: &World, gait: &str, crawl: &Crawl) -> Result<Vec<Frames>, FramesError> {
+///
+/// # Errors
+/// [`FramesError`].
+pub fn all(world: &World, gait: &str, crawl: &Crawl) -> Result<Vec<Frames>, FramesError> {
     let mut pictures: Vec<Frames> = start(world, gait, crawl)?.into_iter().collect();
     pictures.extend(on_its_way(world, gait, crawl)?);
     Ok(pictures)
 }
 
 /// The pictures of a crawl with rows but that of its start.
-pub(crate) fn on_its_way(
-    world: &World,
-    gait: &str,
-    crawl: &Crawl,
-) -> Result<Vec<Frames>, FramesError> {
+///
+/// # Errors
+/// [`FramesError`].
+pub fn on_its_way(world: &World, gait: &str, crawl: &Crawl) -> Result<Vec<Frames>, FramesError> {
     let pictures = [under(world, gait, crawl)?, sequence(world, gait, crawl)?];
     Ok(pictures.into_iter().flatten().collect())
 }
@@ -247,10 +249,10 @@ fn sequence(world: &World, gait: &str, crawl: &Crawl) -> Result<Option<Frames>, 
 mod tests {
     use prone::crawl::Straight;
     use prone::gait::cycle::TimeScale;
+    use prone::regime::Regime;
     use prone_files::shipped;
     use prone_sim::crawl::{self, CrawlPlan, Detail, End};
     use prone_sim::{LoadedRobot, RobotFiles};
-use prone::regime::Regime;
 
     use super::*;
 

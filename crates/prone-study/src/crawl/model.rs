@@ -7,7 +7,7 @@ use prone::frames::{Link, Point};
 use prone::robot::{BodyId, Robot, SideLayout};
 use prone_sim::World;
 
-use super::obstacle_name;
+use prone::scene::obstacle_name;
 
 /// Bodies, shapes and obstacles in metres; rotations as quaternions, real part first.
 pub(super) fn of(world: &World) -> Value {

@@ -3,28 +3,33 @@
 use serde::Serialize;
 
 use prone::gait::Gait;
+use prone::regime::CONTROL_STEP;
 use prone::steering::Bearing;
 use prone_sim::pull::Pull;
-use prone::regime::CONTROL_STEP;
 use prone_sim::{LoadedRobot, World};
 
+use super::instants;
 use super::record::{RecordError, shown};
 use super::run::{RecordInfo, Subject};
-use super::tables::Instant;
+use prone_record::crawl_tables::Instant;
 use prone_record::output::Artefacts;
+use prone_record::program::Program;
 use prone_record::recorded::{Command, Extent};
-use RUNINFO::Program;
 
 /// A pull of the published study.
-pub(crate) struct PullRecording<'a> {
-    pub(crate) robot: &'a LoadedRobot,
-    pub(crate) world: &'a World,
-    pub(crate) gait: &'a Gait,
+pub struct PullRecording<'a> {
+    /// With which robot.
+    pub robot: &'a LoadedRobot,
+    /// Where.
+    pub world: &'a World,
+    /// Of which gait.
+    pub gait: &'a Gait,
     /// The gait's file and its text.
-    pub(crate) file: (&'a str, &'a str),
-    pub(crate) duration_s: f64,
+    pub file: (&'a str, &'a str),
+    /// How long it lasted, s.
+    pub duration_s: f64,
     /// With what is shown of its rows.
-    pub(crate) pull: &'a Pull,
+    pub pull: &'a Pull,
 }
 
 /// What was asked for. The first two are those of a crawl.
@@ -40,10 +45,7 @@ struct Options<'a> {
 ///
 /// # Errors
 /// [`RecordError`].
-pub(crate) fn files(
-    recording: &PullRecording<'_>,
-    program: &Program,
-) -> Result<Artefacts, RecordError> {
+pub fn files(recording: &PullRecording<'_>, program: &Program) -> Result<Artefacts, RecordError> {
     let PullRecording {
         robot,
         world,
@@ -58,7 +60,7 @@ pub(crate) fn files(
         duration_s,
         start_posture: &world.robot().study.start_posture,
     };
-    let instants: Vec<Instant<'_>> = pull.rows.iter().filter_map(Instant::of_pull).collect();
+    let instants: Vec<Instant<'_>> = pull.rows.iter().filter_map(instants::of_pull).collect();
     let subject = Subject {
         command: Command::ReproducePull,
         gait,

@@ -5,16 +5,18 @@ use prone_sim::crawl::{Crawl, ROW_STEP};
 use prone_sim::{LoadedRobot, World};
 use serde::Serialize;
 
+use super::instants;
 use super::run::{Conditions, GaitSource, RecordInfo, Subject};
-use super::summary::CrawlSummary;
-use super::tables::Instant;
-use super::{frames, model, tables};
-use prone_report::figure_list::FigureList;
-use prone_report::figures::{self, AngleRecord, FigureError, PNG_SCALE};
+use super::{angles, frames, model};
 use crate::frames::FramesError;
+use prone_record::crawl_summary::CrawlSummary;
+use prone_record::crawl_tables as tables;
+use prone_record::crawl_tables::Instant;
 use prone_record::output::{Artefacts, RUN_FILE, json};
+use prone_record::program::Program;
 use prone_record::recorded::{CONTACTS_FILE, Command, Extent, MODEL_FILE, ROWS_FILE};
-use RUNINFO::Program;
+use prone_report::figure_list::FigureList;
+use prone_report::figures::{self, FigureError, PNG_SCALE};
 
 /// Why a record has no files.
 #[derive(Debug, thiserror::Error)]
@@ -51,11 +53,16 @@ pub struct Recording<'a> {
 }
 
 /// Makes every file but `timing.json`; all the same for the same input. Pictures are taken on the
-/// current rayon pool.
+/// current rayon pool. `published` is the range that a joint swept on a robot, rad, where one is
+/// published, for the figure of angles.
 ///
 /// # Errors
 /// [`RecordError`].
-pub fn files(recording: &Recording<'_>, program: &Program) -> Result<Artefacts, RecordError> {
+pub fn files(
+    recording: &Recording<'_>,
+    program: &Program,
+    published: &dyn Fn(&str) -> Option<(f64, f64)>,
+) -> Result<Artefacts, RecordError> {
     let Recording {
         world,
         crawl,
@@ -67,8 +74,8 @@ pub fn files(recording: &Recording<'_>, program: &Program) -> Result<Artefacts, 
     for frames in frames::all(world, &summary.gait, crawl)? {
         list.picture(&mut artefacts, frames.figure, frames.png);
     }
-    let angles = AngleRecord::of(world.robot(), &summary.gait, crawl);
-    if let Some(figure) = figures::crawl_angles(&angles)? {
+    let angles = angles::of_crawl(world.robot(), &summary.gait, crawl);
+    if let Some(figure) = figures::crawl_angles(&angles, published)? {
         let png = figure.png(PNG_SCALE)?;
         list.drawing(&mut artefacts, "figures/", figure, png);
     }
@@ -77,7 +84,10 @@ pub fn files(recording: &Recording<'_>, program: &Program) -> Result<Artefacts, 
 }
 
 /// All files but the figures.
-pub(crate) fn numbers(
+///
+/// # Errors
+/// [`RecordError`].
+pub fn numbers(
     recording: &Recording<'_>,
     command: Command,
     program: &Program,
@@ -106,7 +116,7 @@ pub(crate) fn numbers(
         .first()
         .map_or_else(Default::default, |cycle| cycle.from);
     let info = RecordInfo::of(robot, world, &subject, program);
-    let instants: Vec<Instant<'_>> = crawl.rows.iter().map(Instant::of).collect();
+    let instants: Vec<Instant<'_>> = crawl.rows.iter().map(instants::of_crawl).collect();
     let mut artefacts = shown(world, &info, start, &instants)?;
     artefacts.insert("summary.json".into(), json(summary)?);
     artefacts.insert("cycles.csv".into(), tables::cycles(summary)?);
@@ -129,7 +139,7 @@ pub(super) fn shown(
     artefacts.insert(MODEL_FILE.into(), json(&model::of(world))?);
     let rows = tables::rows(world.robot(), start, instants)?;
     artefacts.insert(ROWS_FILE.into(), rows);
-    let contacts = tables::contacts(world, instants)?;
+    let contacts = tables::contacts(world.robot(), world.obstacles(), instants)?;
     artefacts.insert(CONTACTS_FILE.into(), contacts);
     Ok(artefacts)
 }

@@ -4,12 +4,12 @@ use serde::Serialize;
 
 use prone::gait::Gait;
 use prone::gait::cycle::Cycle;
-use prone::robot::{JointAngles, Robot};
 use prone::regime::{Effort, SOLIMP, SOLREF, Servo, Stops};
+use prone::robot::{JointAngles, Robot};
 use prone_sim::{LoadedRobot, World};
 
+use prone_record::program::{Program, RobotInfo};
 use prone_record::recorded::{Command, Extent};
-use RUNINFO::{Program, RobotInfo};
 
 /// A crawl that ends past the obstacles of its scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -147,7 +147,7 @@ impl<'a, O> RecordInfo<'a, O> {
             built: program.clone(),
             command: subject.command,
             engine: prone_sim::engine_version(),
-            robot: RobotInfo::of(robot),
+            robot: RobotInfo::of(robot.robot(), robot.files()),
             gait: GaitInfo {
                 name: &gait.name,
                 description: &gait.description,

@@ -7,8 +7,10 @@ use prone_sim::World;
 use prone_sim::crawl::{Crawl, CycleRow, Touch};
 
 use super::joints;
-use super::obstacle_name;
-use prone_record::crawl_summary::{CalibrationStop, CrawlSummary, CycleSummary, PlateContact, SheetClamp, TopsMm};
+use prone::scene::obstacle_name;
+use prone_record::crawl_summary::{
+    CalibrationStop, CrawlSummary, CycleSummary, PlateContact, SheetClamp, TopsMm,
+};
 
 /// Reduces a record to figures. `until_past` says whether the crawl was to end past the obstacles.
 ///
@@ -168,4 +170,3 @@ fn per_cycle(robot: &Robot, cycles: &[CycleRow]) -> Vec<CycleSummary> {
     });
     rows.collect()
 }
-

@@ -4,9 +4,9 @@ use std::cmp::Ordering;
 
 use prone::gait::cycle::Cycle;
 use prone::robot::Robot;
+use prone_record::frontier::{Confirmed, ConfirmedSetting, Found, SettingKind};
 use prone_sim::LoadedRobot;
 use prone_sim::crawl::CrawlError;
-use prone_record::frontier::{Confirmed, ConfirmedSetting, SettingKind};
 
 use super::CycleProblem;
 use super::form::{CycleForm, CycleFormError, PointError};
@@ -167,6 +167,28 @@ fn refused(setting: &Setting, reason: String) -> ConfirmedSetting {
         demanded_shoulder_nm: None,
         kept: None,
         refused: Some(reason),
+    }
+}
+
+/// What a record says of a run's best cycle.
+pub fn found(
+    ceiling_mm: Option<f64>,
+    seed: u64,
+    evaluations: u64,
+    cycle: &Cycle,
+    price: &CyclePrice,
+    confirmed: Confirmed,
+) -> Found {
+    Found {
+        ceiling_mm,
+        seed,
+        evaluations,
+        gait: cycle.pull.name.clone(),
+        value: Some(price.value).filter(|value| value.is_finite()),
+        violation: price.violation,
+        refused: price.refusal.as_ref().map(ToString::to_string),
+        unsteered: None,
+        confirmed,
     }
 }
 

@@ -15,9 +15,9 @@ use prone::crawl::CrawlerError;
 use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale};
 use prone::gait::{Clamp, LimitsPolicy};
 use prone::robot::{JointAngles, JointId};
+use prone_record::frontier::{CycleObjective, SettingKind};
 use prone_sim::crawl::CrawlError;
 use prone_sim::self_collision::{SelfCollision, SelfCollisionError};
-use prone_record::frontier::{CycleObjective, SettingKind};
 
 use super::rules::{CycleRules, UNTRIED, above};
 use super::setting::{Role, Setting};

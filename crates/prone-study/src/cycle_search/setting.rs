@@ -2,11 +2,11 @@
 
 use prone::gait::PhaseDuration;
 use prone::gait::cycle::TimeScale;
+use prone::regime::Regime;
 use prone::robot::JointAngles;
 use prone::scene::{Scene, SideFriction};
-use prone_sim::{LoadedRobot, World, WorldError};
-use prone::regime::Regime;
 use prone_record::frontier::SettingKind;
+use prone_sim::{LoadedRobot, World, WorldError};
 
 /// What a setting is for.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -5,15 +5,16 @@
 
 use prone::gait::cycle::{Cycle, TimeScale, TimeScaleError};
 use prone::gait::{PhaseDuration, PhaseDurationError};
+use prone::regime::Regime;
+use prone::regime::Servo;
 use prone::robot::{JointAngles, Robot};
 use prone::scene::SideFriction;
 use prone_optim::Random;
-use prone::regime::Servo;
 use prone_sim::{LoadedRobot, WorldError};
-use prone::regime::Regime;
 
 use super::rules::CycleRules;
-use super::setting::{Role, Setting, SettingKind, SettingSpec};
+use super::setting::{Role, Setting, SettingSpec};
+use prone_record::frontier::SettingKind;
 
 /// Friction of the locomotion regime and the span over which a cycle has to hold.
 const SLIPPERY: f64 = 0.4;

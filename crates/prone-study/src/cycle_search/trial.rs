@@ -5,7 +5,8 @@ use prone::gait::cycle::Cycle;
 use prone::robot::BodyPart;
 use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, Detail, End};
 
-use super::setting::{Setting, SettingKind};
+use super::setting::Setting;
+use prone_record::frontier::SettingKind;
 
 /// What a cycle came to in one setting; the last cycle of it.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,8 +5,8 @@
 //! search finds a gait under one regime at one duration, and what the others say is printed beside
 //! it, whichever way it goes.
 
-use rayon::prelude::*;
 use prone_record::gait_search::{Confirmation, Refusal, Row, Verdict};
+use rayon::prelude::*;
 
 use prone::cost::CostError;
 use prone::gait::{Gait, PhaseDuration};
@@ -15,10 +15,10 @@ use prone_sim::World;
 use prone_sim::pull::{self, Keep, Pull, PullError, Start};
 
 use super::dynamic::{self, TrialError};
-use super::objective::{NoMotor, Objective};
+use crate::pulls::{Observer, pull_record};
+use prone::cost::objective::{NoMotor, Objective};
 use prone_record::contact_story;
 use prone_record::pulls::JOINTS;
-use prone_thesis::torque_study::{Observer, pull_record};
 
 /// What is simulated.
 #[derive(Debug, Clone)]

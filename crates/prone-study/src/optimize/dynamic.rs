@@ -22,10 +22,10 @@ use prone::cost::graded::{Norm, Per, Price, Rule, Violations};
 use prone::cost::{CostError, squared_torque_integral};
 use prone::gait::{Gait, PhaseDuration};
 use prone::mapping::{Mapping, MappingError};
+use prone::regime::CONTROL_STEP;
 use prone::robot::{ContactGroup, Robot};
 use prone::torque_map::JointTorques;
 use prone_sim::pull::{self, Keep, Pull, PullError, Start};
-use prone::regime::CONTROL_STEP;
 use prone_sim::{Placement, Simulation, World};
 
 use super::pricing::{Pricing, Share};

@@ -3,13 +3,13 @@
 use prone::gait::{CurveError, Gait};
 use prone_optim::{Candidate, Problem};
 
-use prone_record::gait_search::{Compared, Confirmation, Outcome, RunOutcome};
 use super::form::Parametrisation;
 use super::pricer::{NotCubic, Pricer};
 use super::problem::GaitProblem;
 use super::published_problem;
-use prone_record::search::{Search, SearchEnd, SeededRun};
 use prone_record::curves_info::CurvesInfo;
+use prone_record::gait_search::{Compared, Confirmation, Outcome, RunOutcome};
+use prone_record::search::{Search, SearchEnd, SeededRun};
 
 /// Gaits of one form, priced.
 pub struct Hunt<'a> {
@@ -154,4 +154,3 @@ fn run_outcome(hunt: &Hunt<'_>, run: &SeededRun) -> Result<RunOutcome, OutcomeEr
         restarts: run.last().map_or(0, |last| last.restarts),
     })
 }
-

@@ -1,21 +1,21 @@
 //! From what is to be minimised, and by what it is measured, to something that prices gaits.
 
-use prone_record::gait_search::{Broken, Priced};
 use prone::cost::graded::{Price, Rule};
 use prone::cost::published::{PublishedObjective, PublishedRules};
 use prone::gait::{Gait, PhaseDuration};
 use prone::mapping::{ArmMode, Mapping, MappingError};
 use prone::statics::{Stance, StaticTorques, SupportRule, SymmetryError};
 use prone::torque_map::TorqueMap;
+use prone_record::gait_search::{Broken, Priced};
 use prone_sim::World;
 
 use super::dynamic::{DynamicPricing, DynamicSetup, TrialError};
-use super::objective::{NoMotor, Objective};
 use super::pricing::{Pricing, Share};
 use super::published_problem::{self, PublishedProblem, PublishedProblemError};
 use super::rules::{self, ChainRules, Clearance};
 use super::static_pricing::StaticPricing;
 use crate::torque_map::{NodeGrid, NodeGridError};
+use prone::cost::objective::{NoMotor, Objective};
 
 /// Grid of the table that the statics fills for the published objective: the finer published one,
 /// with θ4 up to where the published gaits go (Bell 2015, table 2: 27.5°), degrees.
@@ -247,7 +247,7 @@ impl Pricer<'_> {
     /// [`NotCubic`] by the published objective.
     pub fn price(&self, gait: &Gait) -> Result<Priced, NotCubic> {
         match self {
-            Self::Graded(pricing) => Ok(priced(pricing.quote(gait))),
+            Self::Graded(pricing) => Ok(priced(&pricing.quote(gait))),
             Self::Published { objective, .. } => {
                 let coefficients =
                     published_problem::coefficients_of(gait).ok_or_else(|| NotCubic {
@@ -281,19 +281,17 @@ impl Pricer<'_> {
 }
 
 /// A graded price, in the form of a record.
-fn priced(price: Price) -> Priced {
-    {
-        let torque = (!price.torque.is_nan()).then_some(price.torque);
-        let broken = |(rule, excess): (Rule, prone::cost::graded::Excess)| Broken {
-            rule: rule.name(),
-            count: excess.count,
-            sum: excess.sum,
-        };
-        Self {
-            cost: torque,
-            torque,
-            violations: price.violations.total(),
-            broken: price.violations.iter().map(broken).collect(),
-        }
+fn priced(price: &Price) -> Priced {
+    let torque = (!price.torque.is_nan()).then_some(price.torque);
+    let broken = |(rule, excess): (Rule, prone::cost::graded::Excess)| Broken {
+        rule: rule.name(),
+        count: excess.count,
+        sum: excess.sum,
+    };
+    Priced {
+        cost: torque,
+        torque,
+        violations: price.violations.total(),
+        broken: price.violations.iter().map(broken).collect(),
     }
 }

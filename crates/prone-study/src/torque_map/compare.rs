@@ -12,8 +12,8 @@ use serde::Serialize;
 
 use prone::torque_map::{Mask, RecordedMap, Row};
 
-use prone_thesis::agreement::{correlation, rms};
 use prone_record::pulls::JOINTS;
+use prone_record::statistics::{correlation, rms};
 
 /// What came out of a comparison of a first file, `a`, with a second, `b`.
 #[derive(Debug, Clone, PartialEq, Serialize)]

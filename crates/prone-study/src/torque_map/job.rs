@@ -6,14 +6,14 @@
 use std::collections::BTreeMap;
 
 use prone::mapping::{ArmMode, Mapping, MappingError, MappingVariant};
+use prone::regime::Regime;
 use prone::statics::{HalfRobot, SymmetryError};
 use prone::torque_map::COLUMNS;
-use prone_sim::settled::STILL;
 use prone_sim::LoadedRobot;
-use prone::regime::Regime;
+use prone_sim::settled::STILL;
 
 use super::NodeGrid;
-use RUNINFO::Program;
+use prone_record::program::Program;
 
 const VARIANT: MappingVariant = MappingVariant::Original;
 const ARM: ArmMode = ArmMode::Fixed;

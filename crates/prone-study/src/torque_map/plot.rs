@@ -4,10 +4,10 @@ use serde::Serialize;
 
 use prone::torque_map::TorqueMap;
 
+use prone_record::output::{Artefacts, RUN_FILE, json};
+use prone_record::program::Program;
 use prone_report::figure_list::FigureList;
 use prone_report::figures::{self, FigureError, PNG_SCALE};
-use prone_record::output::{Artefacts, RUN_FILE, json};
-use RUNINFO::Program;
 
 /// Slices that are drawn where none are asked for.
 const SLICES: usize = 4;

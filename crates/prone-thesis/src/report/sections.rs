@@ -2,15 +2,15 @@
 
 use maud::{Markup, html};
 
-use prone_record::contact_story::ContactStory;
 use crate::published;
-use RUNINFO::RunInfo;
+use crate::run_info::RunInfo;
 use crate::summary::{CostRow, Summary};
+use prone_record::contact_story::ContactStory;
 
 /// From this duration on the unknown start pose of the recordings no longer decides the cost.
 const START_POSE_FORGOTTEN_S: f64 = 3.0;
 
-pub(super) fn results(summary: &Summary) -> Markup {
+pub(crate) fn results(summary: &Summary) -> Markup {
     let ratios = |of: fn(&crate::summary::RatioRow) -> Option<f64>| {
         let long = summary
             .ratios
@@ -73,7 +73,7 @@ pub(super) fn results(summary: &Summary) -> Markup {
     }
 }
 
-pub(super) fn contacts(summary: &Summary) -> Markup {
+pub(crate) fn contacts(summary: &Summary) -> Markup {
     html! {
         section {
             h2 { "Which part carries the body when" }
@@ -120,7 +120,7 @@ fn bar(percent: f64) -> Markup {
     html! { span.band style=(format!("width:{:.2}em", percent * 0.03)) {} }
 }
 
-pub(super) fn costs(summary: &Summary) -> Markup {
+pub(crate) fn costs(summary: &Summary) -> Markup {
     let rows = |gait: &'static str| summary.costs.iter().filter(move |row| row.gait == gait);
     html! {
         section {
@@ -173,7 +173,7 @@ fn ratio_cells(summary: &Summary, duration_s: f64) -> Markup {
     }
 }
 
-pub(super) fn agreement(summary: &Summary) -> Markup {
+pub(crate) fn agreement(summary: &Summary) -> Markup {
     html! {
         section {
             h2 { "Agreement with the published recordings" }
@@ -209,7 +209,7 @@ pub(super) fn agreement(summary: &Summary) -> Markup {
     }
 }
 
-pub(super) fn stride(summary: &Summary) -> Markup {
+pub(crate) fn stride(summary: &Summary) -> Markup {
     let [first, second] = summary.stride.published_robot_mm_per_cycle;
     html! {
         section {
@@ -253,7 +253,7 @@ pub(super) fn stride(summary: &Summary) -> Markup {
     }
 }
 
-pub(super) fn table_crawl(summary: &Summary) -> Markup {
+pub(crate) fn table_crawl(summary: &Summary) -> Markup {
     html! {
         @if let Some(first) = summary.table.first() {
             p {
@@ -300,7 +300,7 @@ pub(super) fn table_crawl(summary: &Summary) -> Markup {
     }
 }
 
-pub(super) fn clamps(summary: &Summary) -> Markup {
+pub(crate) fn clamps(summary: &Summary) -> Markup {
     html! {
         section {
             h2 { "Joints at their limits" }
@@ -326,7 +326,7 @@ pub(super) fn clamps(summary: &Summary) -> Markup {
     }
 }
 
-pub(super) fn mappings(summary: &Summary) -> Markup {
+pub(crate) fn mappings(summary: &Summary) -> Markup {
     html! {
         section {
             h2 { "What the mapping changes" }
@@ -353,7 +353,7 @@ pub(super) fn mappings(summary: &Summary) -> Markup {
     }
 }
 
-pub(super) fn differences() -> Markup {
+pub(crate) fn differences() -> Markup {
     html! {
         section {
             h2 { "Known differences" }
@@ -373,7 +373,7 @@ pub(super) fn differences() -> Markup {
 }
 
 /// Under which conditions a reproduction was made: entries of a list.
-pub(super) fn study_facts(info: &RunInfo) -> Markup {
+pub(crate) fn study_facts(info: &RunInfo) -> Markup {
     let options = &info.options;
     let durations: Vec<String> = options.durations_s.iter().map(f64::to_string).collect();
     html! {
@@ -401,7 +401,7 @@ pub(super) fn study_facts(info: &RunInfo) -> Markup {
     }
 }
 
-pub(super) fn optional(value: Option<f64>, show: impl Fn(f64) -> String) -> String {
+pub(crate) fn optional(value: Option<f64>, show: impl Fn(f64) -> String) -> String {
     value.map_or_else(|| "–".to_owned(), show)
 }
 

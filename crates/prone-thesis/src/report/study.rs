@@ -1,32 +1,33 @@
 //! Reading the result folder of `prone reproduce`.
 
-use super::cut_table::Cut;
-use super::folder::Folder;
-use super::{ReportError, chains};
-use prone_report::figure_list::FigureEntry;
-use prone_report::figures::{Figure, study_figures};
-use prone_record::pulls::{ChainRecord, CostRecord, JOINTS, PullRecord, PullRow};
-use RUNINFO::RunInfo;
+use maud::{Markup, html};
+
+use super::{parameter_tables, sections};
+use crate::published;
+use crate::run_info::RunInfo;
 use crate::summary::Summary;
+use prone_record::figure_entry::FigureEntry;
+use prone_record::pulls::{ChainRecord, CostRecord, JOINTS, PullRecord, PullRow};
 use prone_record::tables::{ARM_JOINTS, torque_file_name};
+use prone_report::figures::{Figure, FigureError, study_figures};
+use prone_report::report::{Cut, Folder, PublishedRun, ReportError, chains};
 
 /// A pull whose last row is nearer to its end than this is whole, percent of the phase.
 const END: f64 = 1e-6;
 
 /// What a reproduction left behind.
-pub(super) struct StudyRun {
-    pub(super) folder: Folder,
-    pub(super) info: RunInfo,
-    pub(super) summary: Summary,
-    pub(super) chains: Vec<ChainRecord>,
-    pub(super) pulls: Vec<PullRecord>,
-    pub(super) costs: Vec<CostRecord>,
-    pub(super) recorded: Vec<FigureEntry>,
-    pub(super) cuts: Vec<Cut>,
+pub(crate) struct StudyRun {
+    pub(crate) info: RunInfo,
+    pub(crate) summary: Summary,
+    pub(crate) chains: Vec<ChainRecord>,
+    pub(crate) pulls: Vec<PullRecord>,
+    pub(crate) costs: Vec<CostRecord>,
+    pub(crate) recorded: Vec<FigureEntry>,
+    pub(crate) cuts: Vec<Cut>,
 }
 
 impl StudyRun {
-    pub(super) fn read(folder: Folder) -> Result<Self, ReportError> {
+    pub(crate) fn read(folder: &Folder) -> Result<Self, ReportError> {
         let info: RunInfo = folder.run()?;
         let mut cuts = Vec::new();
         let gaits: Vec<&str> = info
@@ -35,33 +36,72 @@ impl StudyRun {
             .iter()
             .map(|gait| gait.name.as_str())
             .collect();
-        let chains = chains::read(&folder, Some(&gaits), &mut cuts)?;
+        let chains = chains::read(folder, Some(&gaits), &mut cuts)?;
         let mut pulls = Vec::new();
         for gait in &gaits {
             for &duration_s in &info.options.durations_s {
-                pulls.push(pull(&folder, gait, duration_s, &mut cuts)?);
+                pulls.push(pull(folder, gait, duration_s, &mut cuts)?);
             }
         }
         let expected = gaits.len() * info.options.durations_s.len();
         Ok(Self {
             summary: folder.json("summary.json")?,
             recorded: folder.figures()?,
-            costs: costs(&folder, expected, &mut cuts)?,
+            costs: costs(folder, expected, &mut cuts)?,
             info,
             chains,
             pulls,
             cuts,
-            folder,
         })
     }
+}
 
-    /// Figures 25, 26, 34 and 36 to 45, drawn from the tables.
-    pub(super) fn drawings(&self) -> Result<Vec<Figure>, ReportError> {
-        let drawn = study_figures(&self.chains, &self.pulls, &self.costs);
-        drawn.map_err(|source| ReportError::Figure {
-            run: self.folder.name.clone(),
-            source,
-        })
+impl PublishedRun for StudyRun {
+    /// Figures 25, 26, 34 and 36 to 45.
+    fn drawings(&self) -> Result<Vec<Figure>, FigureError> {
+        study_figures(&published::FIGURES, &self.chains, &self.pulls, &self.costs)
+    }
+
+    fn recorded(&self) -> &[FigureEntry] {
+        &self.recorded
+    }
+
+    fn shortfalls(&self) -> Vec<String> {
+        self.cuts.iter().map(ToString::to_string).collect()
+    }
+
+    fn results(&self) -> Markup {
+        sections::results(&self.summary)
+    }
+
+    fn tables_after(&self, number: &str) -> Markup {
+        html! {
+            @if number == "25" {
+                @for gait in &self.info.options.gaits {
+                    @if gait.name == published::NOMINAL { (parameter_tables::nominal(&gait.curves)) }
+                    @if gait.name == published::OPTIMAL { (parameter_tables::optimal(&gait.curves)) }
+                }
+            }
+            @if number == "28" && !self.summary.table.is_empty() {
+                (sections::table_crawl(&self.summary))
+            }
+        }
+    }
+
+    fn sections(&self) -> Markup {
+        html! {
+            (sections::costs(&self.summary))
+            (sections::agreement(&self.summary))
+            (sections::contacts(&self.summary))
+            (sections::stride(&self.summary))
+            (sections::clamps(&self.summary))
+            (sections::mappings(&self.summary))
+            (sections::differences())
+        }
+    }
+
+    fn facts(&self) -> Markup {
+        sections::study_facts(&self.info)
     }
 }
 

@@ -1,5 +1,8 @@
 use super::*;
-use prone_record::recorded::sample::{CONTACTS, ROWS, folder};
+use sample::{CONTACTS, ROWS, folder};
+
+#[path = "../../../../prone-record/src/recorded/sample.rs"]
+mod sample;
 
 #[test]
 fn a_whole_record_is_taken_whole() {

@@ -2,10 +2,11 @@ use prone::robot::BodyPart;
 use prone_files::shipped;
 use prone_sim::RobotFiles;
 
-use super::super::price::{CycleObjective, Merge};
+use super::super::price::Merge;
 use super::super::rules::CycleRules;
 use super::super::settings::{for_advance, for_steering, for_steering_confirmation};
 use super::*;
+use prone_record::frontier::CycleObjective;
 
 #[test]
 fn a_cycle_that_ships_with_steering_can_be_steered() {

@@ -48,11 +48,11 @@ fn heats_merge_geometrically_or_to_the_worst_of_shares() {
     assert!((over.heat(&[&four, &nine]) - 0.5).abs() < 1e-12);
     assert!((over.heat(&[&four, &much]) - 0.9).abs() < 1e-12);
     // Of other objectives the robot's own servos decide.
-    let value = |objective: CycleObjective| objective.value(&[&four, &much], &Merge::Mean);
-    assert!((value(CycleObjective::Peak) - 4.0).abs() < 1e-12);
-    assert!((value(CycleObjective::Speed) + 0.05).abs() < 1e-12);
-    assert!((value(CycleObjective::Advance) + 0.1).abs() < 1e-12);
-    assert!((value(CycleObjective::Heat) - 18.0).abs() < 1e-12);
+    let of = |objective: CycleObjective| value(objective, &[&four, &much], &Merge::Mean);
+    assert!((of(CycleObjective::Peak) - 4.0).abs() < 1e-12);
+    assert!((of(CycleObjective::Speed) + 0.05).abs() < 1e-12);
+    assert!((of(CycleObjective::Advance) + 0.1).abs() < 1e-12);
+    assert!((of(CycleObjective::Heat) - 18.0).abs() < 1e-12);
 }
 
 /// A heat that is not a number is the worst, whatever the others are.

@@ -1,7 +1,7 @@
 use prone::robot::BodyPart;
 
-use super::super::setting::SettingKind;
 use super::*;
+use prone_record::frontier::SettingKind;
 
 /// Limits that differ from one another.
 const RULES: CycleRules = CycleRules {

@@ -8,8 +8,8 @@ use prone_files::shipped;
 use prone_sim::{LoadedRobot, RobotFiles};
 
 use super::*;
-use RUNINFO::Program;
 use crate::torque_map::NodeGrid;
+use prone_record::program::Program;
 
 const PROGRAM: Program = Program {
     version: Cow::Borrowed("0.0.0"),

@@ -4,11 +4,12 @@
 //! reach without being tuned (the recorded curves themselves differ by a few hundredths of a
 //! newton metre between durations). Below 3 s the unknown start pose decides.
 
+use prone::regime::Regime;
 use prone_files::shipped;
 use prone_sim::{LoadedRobot, RobotFiles, World};
-use prone::regime::Regime;
-use prone_thesis::torque_study::{self, Observer, Plan, TorqueStudy};
-use prone_study::{agreement, published, summary};
+use prone_study::pulls::Observer;
+use prone_thesis::torque_study::{self, Plan, TorqueStudy};
+use prone_thesis::{agreement, published, summary};
 
 /// Watches nothing and never stops.
 struct Nobody;
