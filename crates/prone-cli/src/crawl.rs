@@ -4,24 +4,18 @@ mod plan;
 mod report;
 
 use std::io::Write as _;
-use std::time::Instant;
+use std::sync::Arc;
 
 use anyhow::anyhow;
 use serde_json::json;
 
-use prone::crawl::CrawlerError;
-use prone_record::crawl_summary::CrawlSummary;
 use prone_record::output;
-use prone_record::program::Program;
-use prone_sim::World;
-use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, Detail};
-use prone_study::crawl::record::{self, Recording};
-use prone_study::crawl::summary;
+use prone_study::crawl::CrawlSetup;
+use prone_study::run::{RunError, Session, Took};
 
 use crate::args::{CrawlCommand, CrawlRunArgs};
 use crate::lock::Lock;
 use crate::{Failure, interrupt};
-use plan::Plan;
 
 pub(crate) fn run(command: &CrawlCommand) -> Result<(), Failure> {
     match command {
@@ -32,7 +26,8 @@ pub(crate) fn run(command: &CrawlCommand) -> Result<(), Failure> {
 }
 
 fn crawl_run(args: &CrawlRunArgs) -> Result<(), Failure> {
-    let plan = Plan::new(args)?;
+    let experiment = plan::experiment(args)?;
+    let setup = CrawlSetup::new(&experiment).map_err(plan::refused)?;
     interrupt::listen()?;
     // Of two crawls into one folder, the first to end would be lost.
     let _lock = match &args.record {
@@ -45,104 +40,54 @@ fn crawl_run(args: &CrawlRunArgs) -> Result<(), Failure> {
         }
         None => None,
     };
-    let started = Instant::now();
-    let crawl = simulate(&plan, args)?;
-    let past = plan.past;
-    let summary = summary::of(&plan.world, &plan.gait.cycle, args.time_scale, &crawl, past)
-        .map_err(Failure::input)?;
-    if let Some(folder) = &args.record {
-        let artefacts = files(args, &plan, &crawl, &summary, started)?;
+    let session = Session {
+        program: crate::program(),
+        threads: args.threads.map(usize::from),
+        joint_ranges: Arc::new(prone_thesis::published::crawl_range),
+    };
+    let outcome = session
+        .crawl(&experiment, &setup, &interrupt::Interrupted)
+        .map_err(failure)?;
+    let summary = &outcome.summary;
+    if let (Some(folder), Some(mut artefacts)) = (&args.record, outcome.artefacts) {
+        artefacts.insert("timing.json".into(), timing(&outcome.took)?);
         interrupt::publish(|| output::publish(folder, &artefacts).map_err(Failure::work))?;
     }
     let mut out = std::io::stdout().lock();
     if args.json {
-        let text = serde_json::to_string_pretty(&summary).map_err(Failure::work)?;
+        let text = serde_json::to_string_pretty(summary).map_err(Failure::work)?;
         writeln!(out, "{text}")?;
     } else {
-        report::print(&summary, &mut out)?;
+        report::print(summary, &mut out)?;
         if let Some(folder) = &args.record {
             writeln!(out, "\nrecord: {}", folder.display())?;
         }
     }
-    match past {
-        Some(past) if !crawl.arrived => Err(Failure::Work(anyhow!(
-            "{} is not past x = {:.0} mm after {} cycles",
+    match outcome.missed_mm {
+        None => Ok(()),
+        Some(x) => Err(Failure::Work(anyhow!(
+            "{} is not past x = {x:.0} mm after {} cycles",
             summary.gait,
-            past.x * 1e3,
             summary.cycles
         ))),
-        _ => Ok(()),
     }
 }
 
-fn simulate(plan: &Plan, args: &CrawlRunArgs) -> Result<Crawl, Failure> {
-    let crawl_plan = CrawlPlan {
-        cycles: plan.cycles(),
-        scale: args.time_scale,
-        end: plan.end,
-        offsets: plan.offsets.clone(),
-        imu_seed: plan.imu_seed,
-        detail: if args.record.is_some() {
-            Detail::Rows
-        } else {
-            Detail::Sums
-        },
-    };
-    let crawl = crawl::run_unless(
-        &interrupt::requested,
-        &plan.world,
-        &crawl_plan,
-        plan.pilot(),
-    );
-    crawl.map_err(|error| plan.failure(error))
+fn timing(took: &Took) -> Result<Vec<u8>, Failure> {
+    let timing = json!({
+        "wall_s": took.wall.as_secs_f64(),
+        "threads": took.threads,
+        "engine_steps": took.engine_steps,
+    });
+    serde_json::to_vec_pretty(&timing).map_err(Failure::work)
 }
 
 /// A cycle that the robot cannot follow is wrong input, a diverging simulation is not.
-pub(crate) fn failure(error: CrawlError) -> Failure {
+fn failure(error: RunError) -> Failure {
     match error {
-        CrawlError::Stopped => Failure::Stopped,
-        CrawlError::Crawler(CrawlerError::Cycle { .. } | CrawlerError::Mapping { .. })
-        | CrawlError::Imu(_) => Failure::input(error),
-        CrawlError::Crawler(_)
-        | CrawlError::Timing(_)
-        | CrawlError::Simulation { .. }
-        | CrawlError::Port { .. } => Failure::work(error),
+        RunError::Stopped => Failure::Stopped,
+        RunError::Crawl(error) if error.is_input() => Failure::input(error),
+        RunError::Cycle(_) | RunError::Setup(_) | RunError::Changed(_) => Failure::input(error),
+        other => Failure::work(other),
     }
-}
-
-fn files(
-    args: &CrawlRunArgs,
-    plan: &Plan,
-    crawl: &Crawl,
-    summary: &CrawlSummary,
-    started: Instant,
-) -> Result<output::Artefacts, Failure> {
-    let world: &World = &plan.world;
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(args.threads.map_or(0, usize::from))
-        .build()
-        .map_err(|error| Failure::Work(anyhow!("cannot start worker threads: {error}")))?;
-    let program = Program {
-        version: env!("CARGO_PKG_VERSION").into(),
-        commit: env!("PRONE_COMMIT").into(),
-    };
-    let recording = Recording {
-        robot: &plan.robot,
-        world,
-        gait: &plan.gait,
-        conditions: &plan.conditions,
-        crawl,
-        summary,
-    };
-    let mut artefacts = pool
-        .install(|| record::files(&recording, &program, &prone_thesis::published::crawl_range))
-        .map_err(Failure::work)?;
-    let timing = json!({
-        "wall_s": started.elapsed().as_secs_f64(),
-        "threads": pool.current_num_threads(),
-        "engine_steps": crawl.engine_steps,
-    });
-    let timing = serde_json::to_vec_pretty(&timing).map_err(Failure::work)?;
-    artefacts.insert("timing.json".into(), timing);
-    Ok(artefacts)
 }

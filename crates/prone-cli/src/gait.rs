@@ -7,7 +7,6 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 
-use prone::gait::cycle::CycleError;
 use prone::gait::{Gait, PhaseDuration};
 use prone::mapping::{ArmMode, MappingVariant};
 use prone::robot::Robot;
@@ -120,12 +119,6 @@ fn by_kind(pulls: &str, cycles: &str) -> String {
     kinds.join("; ")
 }
 
-/// Whether a cycle is one that ships with prone, and not a user's.
-pub(crate) fn is_shipped(gait: &GaitSource) -> bool {
-    let shipped = shipped::gait_file(&gait.cycle.pull.name);
-    shipped.is_some_and(|shipped| shipped.text == gait.text)
-}
-
 /// Whether a robot has what a gait's mapping and arms need.
 pub(crate) fn can_follow(robot: &Robot, gait: &Gait) -> bool {
     let mapped = match gait.mapping {
@@ -137,18 +130,6 @@ pub(crate) fn can_follow(robot: &Robot, gait: &Gait) -> bool {
         ArmMode::FlatForearm => true,
     };
     mapped && armed
-}
-
-/// A cycle that the robot cannot crawl: in a user's file, where that is.
-pub(crate) fn refused(gait: &GaitSource, error: &CycleError) -> Failure {
-    if is_shipped(gait) {
-        return Failure::Input(anyhow!("{error}"));
-    }
-    let file = &gait.file;
-    match cycle_file::line_of(&gait.text, error.place()) {
-        Some(line) => Failure::Input(anyhow!("{file}:{line}: {error}")),
-        None => Failure::Input(anyhow!("{file}: {error}")),
-    }
 }
 
 /// A pull's duration where none is asked for, s.

@@ -5,6 +5,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use anyhow::anyhow;
 
+use prone_study::watch::Watch;
+
 use crate::Failure;
 use crate::failure::STOPPED;
 
@@ -41,6 +43,16 @@ pub(crate) fn listen() -> Result<(), Failure> {
         // most a hidden folder, which the next run removes.
         Ok(()) | Err(ctrlc::Error::MultipleHandlers) => Ok(()),
         Err(error) => Err(Failure::Work(anyhow!("cannot listen for Ctrl-C: {error}"))),
+    }
+}
+
+/// Looks on at an experiment, and stops it where a signal asks for that.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Interrupted;
+
+impl Watch for Interrupted {
+    fn stop(&self) -> bool {
+        requested()
     }
 }
 

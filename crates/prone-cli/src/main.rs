@@ -33,6 +33,7 @@ use clap::{CommandFactory, Parser};
 
 use args::{Args, Command, GaitCommand, RobotCommand};
 use failure::Failure;
+use prone_record::program::Program;
 
 fn main() -> ExitCode {
     let args = Args::parse();
@@ -53,6 +54,14 @@ fn main() -> ExitCode {
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(),
+    }
+}
+
+/// What records say of this program.
+pub(crate) fn program() -> Program {
+    Program {
+        version: env!("CARGO_PKG_VERSION").into(),
+        commit: env!("PRONE_COMMIT").into(),
     }
 }
 

@@ -17,7 +17,7 @@ use prone_study::cycle_search::setting::Setting;
 use prone_study::cycle_search::settings;
 
 use crate::args::passage::UnderArgs;
-use crate::gait::{find_cycle, is_shipped};
+use crate::gait::find_cycle;
 use crate::progress::SearchProgress;
 use crate::{Failure, interrupt, table_file};
 
@@ -38,7 +38,7 @@ fn sources(robot: &LoadedRobot, names: &[String]) -> Result<Vec<(Cycle, &'static
     let names = if names.is_empty() { &usual } else { names };
     let sources = names.iter().map(|name| {
         let source = find_cycle(&files.gaits, name)?;
-        let origin = if is_shipped(&source) {
+        let origin = if source.is_shipped() {
             "shipped"
         } else {
             "file"

@@ -8,7 +8,6 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 
 use prone_record::output;
-use prone_record::program::Program;
 use prone_report::report::{PAGE_FILE, Report, ReportError, Source};
 use prone_thesis::chapter::Thesis;
 
@@ -44,10 +43,7 @@ pub(crate) fn run(args: &ReportArgs) -> Result<(), Failure> {
                 .map_err(|error| cannot_write(file, &error))
         })?,
         Place::Folder(folder) => {
-            let program = Program {
-                version: env!("CARGO_PKG_VERSION").into(),
-                commit: env!("PRONE_COMMIT").into(),
-            };
+            let program = crate::program();
             let artefacts = pool
                 .install(|| report.files(&program))
                 .map_err(Failure::work)?;

@@ -13,7 +13,6 @@ use prone::robot::Robot;
 use prone_files::gaits::Gaits;
 use prone_files::shipped;
 use prone_record::output;
-use prone_record::program::Program;
 use prone_sim::World;
 use prone_sim::crawl::CrawlError;
 use prone_thesis::published;
@@ -44,10 +43,7 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<(), Failure> {
         .num_threads(args.threads.map_or(0, usize::from))
         .build()
         .map_err(|error| Failure::Work(anyhow!("cannot start worker threads: {error}")))?;
-    let program = Program {
-        version: env!("CARGO_PKG_VERSION").into(),
-        commit: env!("PRONE_COMMIT").into(),
-    };
+    let program = crate::program();
 
     let gait_files = gait_files();
     let study = Study {

@@ -20,11 +20,17 @@ use crate::args::RobotCheckArgs;
 
 /// The robot of a folder or a name, or the one that ships.
 pub(crate) fn load(name: Option<&Path>) -> Result<LoadedRobot, Failure> {
-    let files = match name {
-        None => RobotFiles::shipped(shipped::default_robot().map_err(Failure::input)?),
-        Some(name) => RobotFiles::named(name).map_err(Failure::input)?,
-    };
-    LoadedRobot::load(files).map_err(Failure::input)
+    LoadedRobot::load(files(name)?).map_err(Failure::input)
+}
+
+/// Its files.
+pub(crate) fn files(name: Option<&Path>) -> Result<RobotFiles, Failure> {
+    match name {
+        None => Ok(RobotFiles::shipped(
+            shipped::default_robot().map_err(Failure::input)?,
+        )),
+        Some(name) => RobotFiles::named(name).map_err(Failure::input),
+    }
 }
 
 /// What a search says of its robot.

@@ -10,7 +10,6 @@ use anyhow::anyhow;
 
 use prone::torque_map::{RecordedMap, parse_recorded};
 use prone_files::text_file;
-use prone_record::program::Program;
 
 use crate::Failure;
 use crate::args::TorqueMapCommand;
@@ -23,13 +22,6 @@ pub(crate) fn run(command: &TorqueMapCommand) -> Result<(), Failure> {
         TorqueMapCommand::Build(args) => build::run(args),
         TorqueMapCommand::Compare(args) => compare::run(args),
         TorqueMapCommand::Plot(args) => plot::run(args),
-    }
-}
-
-fn program() -> Program {
-    Program {
-        version: env!("CARGO_PKG_VERSION").into(),
-        commit: env!("PRONE_COMMIT").into(),
     }
 }
 

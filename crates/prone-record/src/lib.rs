@@ -7,6 +7,7 @@ pub mod contact_story;
 pub mod crawl_summary;
 pub mod crawl_tables;
 pub mod curves_info;
+pub mod experiment;
 pub mod figure_entry;
 pub mod frontier;
 pub mod gait_search;

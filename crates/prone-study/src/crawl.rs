@@ -11,6 +11,8 @@ mod model;
 pub mod pull;
 pub mod record;
 mod run;
+mod setup;
 pub mod summary;
 
 pub use run::{Conditions, GaitSource, PastObstacles};
+pub use setup::{CrawlRunError, CrawlSetup, CrawlSetupError, RefusedCycle};

@@ -11,4 +11,6 @@ pub mod gait_sheet;
 pub mod optimize;
 pub mod pulls;
 pub mod robot_sheet;
+pub mod run;
 pub mod torque_map;
+pub mod watch;

@@ -18,7 +18,7 @@ pub(super) fn show(args: &GaitShowArgs, loaded: &LoadedRobot) -> Result<(), Fail
     let cycle = &source.cycle;
     let robot = loaded.robot();
     let checked = CheckedCycle::plan(robot, &robot.stops(), cycle, 0.0, TimeScale::ONE)
-        .map_err(|error| super::refused(&source, &error))?;
+        .map_err(|error| Failure::input(source.refused(&error)))?;
     let duration = args.duration.unwrap_or(cycle.pull_duration);
     let sheet = gait_sheet::of(robot, &cycle.pull, duration).map_err(Failure::input)?;
     if let Some(path) = &args.csv {

@@ -20,7 +20,7 @@ pub(super) fn run(args: &BuildArgs) -> Result<(), Failure> {
         SourceArg::Statics => Source::Statics,
         SourceArg::Simulation => Source::Simulation,
     };
-    let job = Job::new(&robot, source, grid, &super::program()).map_err(Failure::input)?;
+    let job = Job::new(&robot, source, grid, &crate::program()).map_err(Failure::input)?;
     check_place(args, &robot)?;
     interrupt::listen()?;
     let pool = rayon::ThreadPoolBuilder::new()

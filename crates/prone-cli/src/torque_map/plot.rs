@@ -25,7 +25,7 @@ pub(super) fn run(args: &PlotArgs) -> Result<(), Failure> {
         comments: comments(&text).map(str::to_owned).collect(),
     };
     let artefacts =
-        plot::artefacts(&map, &slices, &file, &super::program()).map_err(Failure::work)?;
+        plot::artefacts(&map, &slices, &file, &crate::program()).map_err(Failure::work)?;
     interrupt::publish(|| output::publish(&args.out, &artefacts).map_err(Failure::work))?;
     let mut out = std::io::stdout().lock();
     let described = [output::RUN_FILE, FIGURES_FILE];

@@ -1,0 +1,134 @@
+//! A crawl of whole cycles, and a single pull.
+
+use serde::{Deserialize, Serialize};
+
+use super::{GaitText, RobotText, SceneText};
+
+/// One closed-chain phase in the regime of the torque study, from the gait's own first pose.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PullExperiment {
+    /// With which robot.
+    pub robot: RobotText,
+    /// Which pull.
+    pub gait: GaitText,
+    /// How long it lasts, s.
+    pub duration_s: f64,
+}
+
+/// Whole cycles in a scene, in the regime `locomotion`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CrawlExperiment {
+    /// With which robot.
+    pub robot: RobotText,
+    /// Which cycle.
+    pub gait: GaitText,
+    /// Which cycle instead where the robot feels that it goes uphill.
+    pub uphill: Option<GaitText>,
+    /// Where.
+    pub scene: SceneChoice,
+    /// When it ends.
+    pub ending: Ending,
+    /// How it is steered.
+    pub steering: SteeringChoice,
+    /// What all durations of the cycle are multiplied by.
+    pub time_scale: f64,
+    /// Gains of the servos.
+    pub servo: ServoChoice,
+    /// Length of an engine step, s, where it is not the regime's.
+    pub time_step_s: Option<f64>,
+    /// Largest calibration error of a joint, degrees, each drawn evenly by the seed.
+    pub joint_offset_deg: Option<f64>,
+    /// Of these errors, and of the inertial unit's noise.
+    pub seed: Option<u64>,
+    /// What is kept.
+    pub detail: Detail,
+}
+
+/// Where a crawl takes place: a level floor, and what is put on it or changed of it.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct SceneChoice {
+    /// A scene's file, in place of the level floor.
+    pub text: Option<SceneText>,
+    /// Height of a plate's underside, mm, and its length, m; in place of a file.
+    pub plate: Option<(f64, f64)>,
+    /// Friction of the ground with the left and with the right limbs.
+    pub friction: Option<(f64, f64)>,
+    /// Slope of the floor, uphill ahead, degrees.
+    pub slope_deg: Option<f64>,
+}
+
+/// When a crawl ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Ending {
+    /// After so many cycles.
+    Cycles(usize),
+    /// When the whole robot is past the obstacles of the scene, or after so many cycles.
+    PastObstacles(usize),
+}
+
+/// How a crawl is steered.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SteeringChoice {
+    /// Not at all.
+    None,
+    /// By one turn command for every cycle, degrees, positive to the left.
+    Constant {
+        /// The command.
+        degrees: f64,
+    },
+    /// So that the robot keeps to its line.
+    Line,
+    /// So that the robot turns to a heading, degrees from the first one, and keeps it.
+    Heading {
+        /// The heading, positive to the left.
+        degrees: f64,
+    },
+}
+
+/// Which servo gains hold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ServoChoice {
+    /// The robot's own.
+    Soft,
+    /// The robot's `stiff_servo_gain_nms` on every joint.
+    Stiff,
+}
+
+/// What is kept of a crawl.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Detail {
+    /// What adds up.
+    Sums,
+    /// Rows and pictures too: what a record folder needs.
+    Rows,
+}
+
+impl CrawlExperiment {
+    /// How many cycles are crawled where nothing is said.
+    pub const CYCLES: usize = 9;
+
+    /// How many cycles a robot has to get past its obstacles.
+    pub const MOST_CYCLES: usize = 60;
+
+    /// A cycle on a level floor, as the command line has it where nothing else is said.
+    pub fn new(robot: RobotText, gait: GaitText) -> Self {
+        Self {
+            robot,
+            gait,
+            uphill: None,
+            scene: SceneChoice::default(),
+            ending: Ending::Cycles(Self::CYCLES),
+            steering: SteeringChoice::None,
+            time_scale: 1.0,
+            servo: ServoChoice::Soft,
+            time_step_s: None,
+            joint_offset_deg: None,
+            seed: None,
+            detail: Detail::Sums,
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! Texts of robots, gaits and scenes, each with its hash.
+
+use serde::{Deserialize, Serialize};
+
+use prone_files::gaits::Gaits;
+use prone_files::robot_folder::{RobotFiles, Version};
+use prone_files::text_file;
+
+/// A robot's two texts.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RobotText {
+    /// Its folder, as shown to a user.
+    pub folder: String,
+    /// Of which family it is a version.
+    pub family: Option<String>,
+    /// Which version of it.
+    pub version: Option<String>,
+    /// `robot.toml`.
+    pub toml: String,
+    /// The MJCF model that it names.
+    pub mjcf: String,
+    /// SHA-256 of both, hexadecimal.
+    pub sha256: String,
+}
+
+/// The text of a gait's file: a pull or a cycle.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct GaitText {
+    /// Its file, as the user named it.
+    pub file: String,
+    /// What stands in it.
+    pub text: String,
+    /// SHA-256 of that, hexadecimal.
+    pub sha256: String,
+}
+
+/// The text of a scene's file.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SceneText {
+    /// Its file, or the name of one that ships.
+    pub file: String,
+    /// What stands in it.
+    pub text: String,
+    /// SHA-256 of that, hexadecimal.
+    pub sha256: String,
+}
+
+/// A text is not the one that its hash is of.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("the text of {file} has the SHA-256 {found}, and the experiment says {expected}")]
+pub struct ChangedText {
+    /// Its file or folder.
+    pub file: String,
+    /// What the experiment says.
+    pub expected: String,
+    /// What the text has.
+    pub found: String,
+}
+
+impl RobotText {
+    /// The texts of a robot that was read.
+    pub fn from_files(files: &RobotFiles) -> Self {
+        let version = files.version.as_ref();
+        Self {
+            folder: files.folder.clone(),
+            family: version.map(|version| version.family.clone()),
+            version: version.map(|version| version.version.clone()),
+            toml: files.toml.clone(),
+            mjcf: files.mjcf.clone(),
+            sha256: files.hash(),
+        }
+    }
+
+    /// The robot's files, to be loaded. Its family's gaits are not among them: an experiment names all
+    /// gaits that it needs.
+    ///
+    /// # Errors
+    /// [`ChangedText`].
+    pub fn files(&self) -> Result<RobotFiles, ChangedText> {
+        let files = RobotFiles {
+            folder: self.folder.clone(),
+            toml: self.toml.clone(),
+            mjcf: self.mjcf.clone(),
+            version: self
+                .family
+                .clone()
+                .zip(self.version.clone())
+                .map(|(family, version)| Version { family, version }),
+            family_toml: None,
+            gaits: Gaits::None,
+            read: Vec::new(),
+        };
+        same(&self.folder, &self.sha256, files.hash())?;
+        Ok(files)
+    }
+}
+
+impl GaitText {
+    /// A text and its hash.
+    pub fn new(file: &str, text: &str) -> Self {
+        Self {
+            file: file.to_owned(),
+            text: text.to_owned(),
+            sha256: text_file::sha256(&[text]),
+        }
+    }
+
+    /// The text, if it is the one that the hash is of.
+    ///
+    /// # Errors
+    /// [`ChangedText`].
+    pub fn checked(&self) -> Result<&str, ChangedText> {
+        same(&self.file, &self.sha256, text_file::sha256(&[&self.text]))?;
+        Ok(&self.text)
+    }
+}
+
+impl SceneText {
+    /// A text and its hash.
+    pub fn new(file: &str, text: &str) -> Self {
+        let GaitText { file, text, sha256 } = GaitText::new(file, text);
+        Self { file, text, sha256 }
+    }
+
+    /// The text, if it is the one that the hash is of.
+    ///
+    /// # Errors
+    /// [`ChangedText`].
+    pub fn checked(&self) -> Result<&str, ChangedText> {
+        same(&self.file, &self.sha256, text_file::sha256(&[&self.text]))?;
+        Ok(&self.text)
+    }
+}
+
+fn same(file: &str, expected: &str, found: String) -> Result<(), ChangedText> {
+    if expected == found {
+        return Ok(());
+    }
+    Err(ChangedText {
+        file: file.to_owned(),
+        expected: expected.to_owned(),
+        found,
+    })
+}

@@ -1,0 +1,423 @@
+//! A crawl as it was asked for, loaded and checked: robot, world, cycles, pilot.
+
+use prone::crawl::{CrawlerError, HoldHeading, HoldLine, Pilot, SlopeAware, Straight};
+use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale, TimeScaleError};
+use prone::regime::{Regime, Servo};
+use prone::robot::{JointAngles, Robot};
+use prone::scene::{Obstacle, Scene, SceneError, SideFriction};
+use prone::steering::{HeadingHold, TurnTo};
+use prone_files::{FileError, cycle_file, scene_file};
+use prone_record::experiment::{
+    ChangedText, CrawlExperiment, Detail, Ending, GaitText, SceneChoice, ServoChoice,
+    SteeringChoice,
+};
+use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, End, LimbsError, check_limbs};
+use prone_sim::{LoadError, LoadedRobot, World, WorldError};
+
+use super::run::{Conditions, GaitSource, PastObstacles};
+use crate::cycle_search::settings::offsets;
+
+/// A crawl that can be simulated.
+pub struct CrawlSetup {
+    /// The robot.
+    pub robot: LoadedRobot,
+    /// Where it crawls.
+    pub world: World,
+    /// With which cycle.
+    pub gait: GaitSource,
+    /// Under which conditions, for its record.
+    pub conditions: Conditions,
+    /// Where it ends, if past obstacles.
+    pub past: Option<PastObstacles>,
+    /// What durations are multiplied by.
+    pub scale: TimeScale,
+    uphill: Option<GaitSource>,
+    imu_seed: Option<u64>,
+    end: End,
+    offsets: Option<JointAngles>,
+    steering: Steering,
+    detail: Detail,
+}
+
+/// Why a crawl cannot be simulated as it was asked for.
+#[derive(Debug, thiserror::Error)]
+pub enum CrawlSetupError {
+    /// A text is not the one that was asked for.
+    #[error(transparent)]
+    Changed(#[from] ChangedText),
+    /// The robot cannot be loaded.
+    #[error(transparent)]
+    Robot(#[from] LoadError),
+    /// A cycle or a scene is malformed.
+    #[error(transparent)]
+    Text(#[from] FileError),
+    /// A scene cannot be built as it was changed.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The scene's file says it already.
+    #[error("scene {scene} sets {quantity} itself")]
+    SetTwice {
+        /// Its file.
+        scene: String,
+        /// `the friction` or `the slope`.
+        quantity: &'static str,
+    },
+    /// Robot and scene do not compile together.
+    #[error(transparent)]
+    World(#[from] WorldError),
+    /// A time scale that no crawl can have.
+    #[error(transparent)]
+    Scale(#[from] TimeScaleError),
+    /// An engine step with which no crawl is simulated.
+    #[error("an engine step of {seconds} s is outside {}..{} s", TIME_STEPS.0, TIME_STEPS.1)]
+    TimeStep {
+        /// What was asked for, s.
+        seconds: f64,
+    },
+    /// A turn command beyond what the cycle can be turned by.
+    #[error("a turn command of {degrees}° is outside {} to {limit_deg}°, by which {gait} can be turned", 0.0 - limit_deg)]
+    Turn {
+        /// What was asked for, degrees.
+        degrees: f64,
+        /// The largest one, degrees.
+        limit_deg: f64,
+        /// The cycle's name.
+        gait: String,
+    },
+    /// A cycle that cannot turn cannot keep a heading.
+    #[error("keeping a heading needs a cycle that can turn; {gait} has no [steering]")]
+    NoSteering {
+        /// The cycle's name.
+        gait: String,
+    },
+    /// There is nothing to get past.
+    #[error("ending past the obstacles needs a plate or a panel: scene {scene} has none")]
+    NothingToPass {
+        /// The scene's name.
+        scene: String,
+    },
+    /// The robot cannot crawl a cycle.
+    #[error(transparent)]
+    Cycle(#[from] RefusedCycle),
+    /// Limbs would go through one another.
+    #[error("{}{source}", in_place(file.as_deref()))]
+    Limbs {
+        /// The cycle's file, where it is a user's.
+        file: Option<String>,
+        /// Which, and how deep.
+        source: Box<LimbsError>,
+    },
+}
+
+/// A cycle that the robot cannot crawl, with its place where it is a user's.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{}{source}", in_place(place.as_deref()))]
+pub struct RefusedCycle {
+    /// File and line.
+    place: Option<String>,
+    /// What is wrong.
+    source: Box<CycleError>,
+}
+
+/// Why a crawl has no result.
+#[derive(Debug, thiserror::Error)]
+pub enum CrawlRunError {
+    /// The robot cannot crawl the cycle.
+    #[error(transparent)]
+    Cycle(#[from] RefusedCycle),
+    /// The simulation has none.
+    #[error(transparent)]
+    Crawl(CrawlError),
+}
+
+fn in_place(place: Option<&str>) -> String {
+    place.map_or_else(String::new, |place| format!("{place}: "))
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Steering {
+    Straight { turn: f64 },
+    Hold { limit: f64 },
+    To(TurnTo),
+}
+
+impl GaitSource {
+    /// Parses a cycle's text.
+    ///
+    /// # Errors
+    /// [`CrawlSetupError::Changed`], [`CrawlSetupError::Text`].
+    pub fn from_text(gait: &GaitText) -> Result<Self, CrawlSetupError> {
+        let text = gait.checked()?;
+        Ok(Self {
+            cycle: cycle_file::parse(&gait.file, text)?,
+            file: gait.file.clone(),
+            text: text.to_owned(),
+        })
+    }
+
+    /// Whether the cycle ships with the program, and is not a user's.
+    pub fn is_shipped(&self) -> bool {
+        let shipped = prone_files::shipped::gait_file(&self.cycle.pull.name);
+        shipped.is_some_and(|shipped| shipped.text == self.text)
+    }
+
+    /// An error of the cycle; of a user's with file and line.
+    pub fn refused(&self, error: &CycleError) -> RefusedCycle {
+        let line = || cycle_file::line_of(&self.text, error.place());
+        let place = (!self.is_shipped()).then(|| match line() {
+            Some(line) => format!("{}:{line}", self.file),
+            None => self.file.clone(),
+        });
+        RefusedCycle {
+            place,
+            source: Box::new(error.clone()),
+        }
+    }
+}
+
+impl CrawlSetup {
+    /// Loads and checks a crawl; nothing is simulated yet.
+    ///
+    /// # Errors
+    /// [`CrawlSetupError`].
+    pub fn new(experiment: &CrawlExperiment) -> Result<Self, CrawlSetupError> {
+        let robot = LoadedRobot::load(experiment.robot.files()?)?;
+        let gait = GaitSource::from_text(&experiment.gait)?;
+        let uphill = experiment.uphill.as_ref().map(GaitSource::from_text);
+        let uphill = uphill.transpose()?;
+        let scene = scene(&experiment.scene)?;
+        let world = World::in_scene(&robot, regime(experiment, robot.robot())?, &scene)?;
+        let scale = TimeScale::new(experiment.time_scale)?;
+        let steering = steering(experiment.steering, &gait)?;
+        for turn in steering.extremes() {
+            for gait in [Some(&gait), uphill.as_ref()].into_iter().flatten() {
+                let checked =
+                    CheckedCycle::plan(world.robot(), world.stops(), &gait.cycle, turn, scale)
+                        .map_err(|error| gait.refused(&error))?;
+                check_limbs(&world, &checked).map_err(|source| CrawlSetupError::Limbs {
+                    file: (!gait.is_shipped()).then(|| gait.file.clone()),
+                    source: Box::new(source),
+                })?;
+            }
+        }
+        let (end, past) = end(experiment.ending, &world)?;
+        let offsets = experiment
+            .joint_offset_deg
+            .zip(experiment.seed)
+            .map(|(degrees, seed)| offsets(world.robot(), degrees.to_radians(), seed));
+        let (Ending::Cycles(most_cycles) | Ending::PastObstacles(most_cycles)) = experiment.ending;
+        let (steering_name, turn_command_deg, heading_deg) = match experiment.steering {
+            SteeringChoice::None => ("none", 0.0, None),
+            SteeringChoice::Constant { degrees } => ("constant", degrees, None),
+            SteeringChoice::Line => ("heading-hold", 0.0, None),
+            SteeringChoice::Heading { degrees } => ("heading", 0.0, Some(degrees)),
+        };
+        let conditions = Conditions {
+            most_cycles,
+            until_past_mm: past.map(|past| past.x * 1e3),
+            time_scale: scale.value(),
+            steering: steering_name,
+            turn_command_deg,
+            heading_deg,
+            joint_offset_deg: experiment.joint_offset_deg.unwrap_or_default(),
+            seed: experiment.seed,
+            joint_offsets_rad: Conditions::offsets_by_name(world.robot(), offsets.as_ref()),
+            scene_text: experiment.scene.text.as_ref().map(|it| it.text.clone()),
+            uphill: uphill
+                .as_ref()
+                .map(|gait| (gait.file.clone(), gait.text.clone())),
+        };
+        Ok(Self {
+            imu_seed: uphill.as_ref().and(experiment.seed),
+            robot,
+            world,
+            gait,
+            conditions,
+            past,
+            scale,
+            uphill,
+            end,
+            offsets,
+            steering,
+            detail: experiment.detail,
+        })
+    }
+
+    /// Simulates the crawl, stopped at once when `stopped` says so.
+    ///
+    /// # Errors
+    /// [`CrawlRunError`].
+    pub fn run(&self, stopped: &dyn Fn() -> bool) -> Result<Crawl, CrawlRunError> {
+        let plan = CrawlPlan {
+            cycles: self.cycles(),
+            scale: self.scale,
+            end: self.end,
+            offsets: self.offsets.clone(),
+            imu_seed: self.imu_seed,
+            detail: match self.detail {
+                Detail::Sums => crawl::Detail::Sums,
+                Detail::Rows => crawl::Detail::Rows,
+            },
+        };
+        let crawl = crawl::run_unless(stopped, &self.world, &plan, self.pilot());
+        crawl.map_err(|error| self.placed(error))
+    }
+
+    /// An error of the crawl itself; of a user's cycle with its place.
+    fn placed(&self, error: CrawlError) -> CrawlRunError {
+        let CrawlError::Crawler(CrawlerError::Cycle { gait, source, .. }) = &error else {
+            return CrawlRunError::Crawl(error);
+        };
+        let mut sources = self.sources();
+        match sources.find(|it| it.cycle.pull.name == *gait) {
+            Some(gait) => gait.refused(source).into(),
+            None => CrawlRunError::Crawl(error),
+        }
+    }
+
+    fn sources(&self) -> impl Iterator<Item = &GaitSource> {
+        [Some(&self.gait), self.uphill.as_ref()]
+            .into_iter()
+            .flatten()
+    }
+
+    /// The cycles between which the pilot chooses.
+    fn cycles(&self) -> Vec<Cycle> {
+        self.sources().map(|gait| gait.cycle.clone()).collect()
+    }
+
+    fn pilot(&self) -> Box<dyn Pilot> {
+        let control = &self.world.robot().control;
+        let steering: Box<dyn Pilot> = match self.steering {
+            Steering::Straight { turn } => Box::new(Straight { turn }),
+            Steering::Hold { limit } => Box::new(HoldLine {
+                hold: HeadingHold::new(control.steering, limit),
+            }),
+            Steering::To(to) => Box::new(HoldHeading { to }),
+        };
+        if self.uphill.is_none() {
+            return steering;
+        }
+        Box::new(SlopeAware::new(steering, control.uphill))
+    }
+}
+
+impl CrawlRunError {
+    /// Whether what was asked for is at fault, not the work.
+    pub const fn is_input(&self) -> bool {
+        matches!(
+            self,
+            Self::Cycle(_)
+                | Self::Crawl(
+                    CrawlError::Crawler(CrawlerError::Cycle { .. } | CrawlerError::Mapping { .. })
+                        | CrawlError::Imu(_)
+                )
+        )
+    }
+}
+
+impl Steering {
+    /// The turns between which all others lie, rad.
+    fn extremes(self) -> [f64; 2] {
+        match self {
+            // The first pull is straight.
+            Self::Straight { turn } => [0.0, turn],
+            Self::Hold { limit } | Self::To(TurnTo { limit, .. }) => [-limit, limit],
+        }
+    }
+}
+
+fn steering(choice: SteeringChoice, gait: &GaitSource) -> Result<Steering, CrawlSetupError> {
+    let name = || gait.cycle.pull.name.clone();
+    let limit = gait.cycle.steering.as_ref().map(|steering| steering.limit);
+    let needed = || limit.ok_or_else(|| CrawlSetupError::NoSteering { gait: name() });
+    match choice {
+        SteeringChoice::Line => Ok(Steering::Hold { limit: needed()? }),
+        SteeringChoice::Heading { degrees } => Ok(Steering::To(TurnTo {
+            heading: degrees.to_radians(),
+            limit: needed()?,
+        })),
+        SteeringChoice::None => Ok(Steering::Straight { turn: 0.0 }),
+        SteeringChoice::Constant { degrees } => {
+            // Nine decimals: finer than what anyone types, coarser than rounding.
+            let limit_deg = limit.unwrap_or_default().to_degrees();
+            let limit_deg = (limit_deg * 1e9).round() / 1e9;
+            // NaN is no turn either.
+            if !(-limit_deg..=limit_deg).contains(&degrees) {
+                return Err(CrawlSetupError::Turn {
+                    degrees,
+                    limit_deg,
+                    gait: name(),
+                });
+            }
+            let turn = degrees.to_radians();
+            Ok(Steering::Straight { turn })
+        }
+    }
+}
+
+/// Shortest and longest engine step, s: contacts are too soft for longer ones.
+const TIME_STEPS: (f64, f64) = (1e-4, 0.005);
+
+fn regime(experiment: &CrawlExperiment, robot: &Robot) -> Result<Regime, CrawlSetupError> {
+    let regime = match experiment.servo {
+        ServoChoice::Soft => Regime::LOCOMOTION,
+        ServoChoice::Stiff => {
+            let gain = robot.control.stiff_servo_gain;
+            Regime::LOCOMOTION.with_servo(Servo::Uniform(gain))
+        }
+    };
+    match experiment.time_step_s {
+        None => Ok(regime),
+        Some(seconds) if (TIME_STEPS.0..=TIME_STEPS.1).contains(&seconds) => {
+            Ok(regime.with_time_step(seconds))
+        }
+        Some(seconds) => Err(CrawlSetupError::TimeStep { seconds }),
+    }
+}
+
+fn scene(choice: &SceneChoice) -> Result<Scene, CrawlSetupError> {
+    let mut scene = match (&choice.text, choice.plate) {
+        (Some(text), _) => scene_file::parse(&text.file, text.checked()?)?,
+        (None, Some((mm, metres))) => Scene::under_plate(mm / 1e3, metres),
+        (None, None) => Scene::level(),
+    };
+    let twice = |quantity: &'static str| CrawlSetupError::SetTwice {
+        scene: choice
+            .text
+            .as_ref()
+            .map_or_else(String::new, |text| text.file.clone()),
+        quantity,
+    };
+    if let Some((left, right)) = choice.friction {
+        if scene.floor.friction.is_some() {
+            return Err(twice("the friction"));
+        }
+        scene.floor.friction = Some(SideFriction { left, right });
+    }
+    if let Some(degrees) = choice.slope_deg {
+        if scene.floor.slope != 0.0 {
+            return Err(twice("the slope"));
+        }
+        scene.floor.slope = degrees.to_radians();
+    }
+    scene.check()?;
+    Ok(scene)
+}
+
+/// When a crawl ends: past the obstacles, behind the last plate, leg or panel.
+fn end(ending: Ending, world: &World) -> Result<(End, Option<PastObstacles>), CrawlSetupError> {
+    let at_most = match ending {
+        Ending::Cycles(cycles) => return Ok((End::Cycles(cycles), None)),
+        Ending::PastObstacles(at_most) => at_most,
+    };
+    let far = |obstacle: &Obstacle| obstacle.ground_from_box.origin().x() + obstacle.half_edges.x;
+    let walls = world.obstacles().iter().filter(|it| !it.kind.is_ground());
+    let x = walls
+        .map(far)
+        .reduce(f64::max)
+        .ok_or_else(|| CrawlSetupError::NothingToPass {
+            scene: world.scene().name.clone(),
+        })?;
+    Ok((End::Past { x, at_most }, Some(PastObstacles { x })))
+}

@@ -1,0 +1,244 @@
+//! Running an experiment, whoever asks for it: the command line, a client in another language, a
+//! worker.
+//!
+//! [`run`] keeps everything in memory and takes all cores; a [`Session`] says how many threads, which
+//! program, and what figures are held against.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
+
+use prone::gait::{PhaseDuration, PhaseDurationError};
+use prone::regime::Regime;
+use prone_files::{FileError, gait_file};
+use prone_record::crawl_summary::CrawlSummary;
+use prone_record::experiment::{ChangedText, CrawlExperiment, Detail, Experiment, PullExperiment};
+use prone_record::output::Artefacts;
+use prone_record::program::Program;
+use prone_record::pulls::PullRecord;
+use prone_sim::crawl::CrawlError;
+use prone_sim::pull::{self, Keep, PullError, Start};
+use prone_sim::{LoadError, LoadedRobot, World, WorldError};
+
+use crate::crawl::pull::PullRecording;
+use crate::crawl::record::{self, RecordError, Recording};
+use crate::crawl::{self, CrawlRunError, CrawlSetup, CrawlSetupError, RefusedCycle, summary};
+use crate::pulls::pull_record;
+use crate::watch::Watch;
+
+/// The range that a joint swept on a robot, rad, where one is published.
+pub type JointRanges = Arc<dyn Fn(&str) -> Option<(f64, f64)> + Send + Sync>;
+
+/// How experiments are run.
+#[derive(Clone)]
+pub struct Session {
+    /// The program that records name.
+    pub program: Program,
+    /// Worker threads; all cores where it is not said.
+    pub threads: Option<usize>,
+    /// What the figure of joint angles is held against.
+    pub joint_ranges: JointRanges,
+}
+
+/// What came out of an experiment.
+#[derive(Debug)]
+pub enum Outcome {
+    /// Of a pull.
+    Pull(Box<PullOutcome>),
+    /// Of a crawl.
+    Crawl(Box<CrawlOutcome>),
+}
+
+/// What came out of a pull.
+#[derive(Debug)]
+pub struct PullOutcome {
+    /// Torques, angles, contacts of every control step.
+    pub record: PullRecord,
+    /// The files of its record folder.
+    pub artefacts: Artefacts,
+}
+
+/// What came out of a crawl.
+#[derive(Debug)]
+pub struct CrawlOutcome {
+    /// The crawl in figures.
+    pub summary: CrawlSummary,
+    /// Where it was to end, mm, if it did not get there.
+    pub missed_mm: Option<f64>,
+    /// The files of its record folder but `timing.json`, where rows were asked for.
+    pub artefacts: Option<Artefacts>,
+    /// What it took.
+    pub took: Took,
+}
+
+/// What an experiment took.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Took {
+    /// Wall time.
+    pub wall: Duration,
+    /// Worker threads.
+    pub threads: usize,
+    /// Engine steps.
+    pub engine_steps: usize,
+}
+
+/// Why an experiment has no outcome.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// A crawl cannot be set up.
+    #[error(transparent)]
+    Setup(#[from] CrawlSetupError),
+    /// A text is not the one that was asked for.
+    #[error(transparent)]
+    Changed(#[from] ChangedText),
+    /// The robot cannot be loaded.
+    #[error(transparent)]
+    Robot(#[from] LoadError),
+    /// A gait is malformed.
+    #[error(transparent)]
+    Text(#[from] FileError),
+    /// The robot does not compile with its floor.
+    #[error(transparent)]
+    World(#[from] WorldError),
+    /// A duration that no pull can have.
+    #[error(transparent)]
+    Duration(#[from] PhaseDurationError),
+    /// A pull has no record.
+    #[error(transparent)]
+    Pull(#[from] PullError),
+    /// A crawl has no record.
+    #[error(transparent)]
+    Crawl(CrawlRunError),
+    /// The robot cannot crawl a cycle.
+    #[error(transparent)]
+    Cycle(#[from] RefusedCycle),
+    /// A record has no files.
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    /// The worker threads cannot be started.
+    #[error("cannot start worker threads: {0}")]
+    Threads(#[from] ThreadPoolBuildError),
+    /// [`Watch::stop`] said so.
+    #[error("stopped")]
+    Stopped,
+}
+
+/// Runs an experiment on all cores, in memory.
+///
+/// # Errors
+/// [`RunError`].
+pub fn run(experiment: &Experiment, watch: &dyn Watch) -> Result<Outcome, RunError> {
+    Session::default().run(experiment, watch)
+}
+
+impl Default for Session {
+    fn default() -> Self {
+        Self {
+            program: Program {
+                version: env!("CARGO_PKG_VERSION").into(),
+                commit: "unknown".into(),
+            },
+            threads: None,
+            joint_ranges: Arc::new(|_| None),
+        }
+    }
+}
+
+impl Session {
+    /// Runs an experiment in memory.
+    ///
+    /// # Errors
+    /// [`RunError`].
+    pub fn run(&self, experiment: &Experiment, watch: &dyn Watch) -> Result<Outcome, RunError> {
+        match experiment {
+            Experiment::Pull(pull) => Ok(Outcome::Pull(Box::new(self.pull(pull)?))),
+            Experiment::Crawl(crawl) => {
+                let setup = CrawlSetup::new(crawl)?;
+                Ok(Outcome::Crawl(Box::new(self.crawl(crawl, &setup, watch)?)))
+            }
+        }
+    }
+
+    /// The worker threads of an experiment.
+    ///
+    /// # Errors
+    /// [`RunError::Threads`].
+    pub fn pool(&self) -> Result<ThreadPool, RunError> {
+        let threads = self.threads.unwrap_or_default();
+        Ok(ThreadPoolBuilder::new().num_threads(threads).build()?)
+    }
+
+    /// Simulates a crawl that was set up.
+    ///
+    /// # Errors
+    /// [`RunError`].
+    pub fn crawl(
+        &self,
+        experiment: &CrawlExperiment,
+        setup: &CrawlSetup,
+        watch: &dyn Watch,
+    ) -> Result<CrawlOutcome, RunError> {
+        let started = Instant::now();
+        let crawl = setup.run(&|| watch.stop()).map_err(|error| match error {
+            CrawlRunError::Crawl(CrawlError::Stopped) => RunError::Stopped,
+            other => RunError::Crawl(other),
+        })?;
+        let summary = summary::of(
+            &setup.world,
+            &setup.gait.cycle,
+            setup.scale,
+            &crawl,
+            setup.past,
+        )
+        .map_err(|error| setup.gait.refused(&error))?;
+        let pool = self.pool()?;
+        let artefacts = match experiment.detail {
+            Detail::Sums => None,
+            Detail::Rows => {
+                let recording = Recording {
+                    robot: &setup.robot,
+                    world: &setup.world,
+                    gait: &setup.gait,
+                    conditions: &setup.conditions,
+                    crawl: &crawl,
+                    summary: &summary,
+                };
+                let ranges = &*self.joint_ranges;
+                Some(pool.install(|| record::files(&recording, &self.program, &ranges))?)
+            }
+        };
+        let past = setup.past.filter(|_| !crawl.arrived);
+        Ok(CrawlOutcome {
+            summary,
+            missed_mm: past.map(|past| past.x * 1e3),
+            artefacts,
+            took: Took {
+                wall: started.elapsed(),
+                threads: pool.current_num_threads(),
+                engine_steps: crawl.engine_steps,
+            },
+        })
+    }
+
+    fn pull(&self, experiment: &PullExperiment) -> Result<PullOutcome, RunError> {
+        let robot = LoadedRobot::load(experiment.robot.files()?)?;
+        let gait = gait_file::parse(&experiment.gait.file, experiment.gait.checked()?)?;
+        let duration = PhaseDuration::new(experiment.duration_s)?;
+        let world = World::new(&robot, Regime::TORQUE_STUDY)?;
+        let keep = Keep::Shown { pictures: 0 };
+        let pull = pull::run(&world, &gait, duration, Start::FirstPose, keep)?;
+        let recording = PullRecording {
+            robot: &robot,
+            world: &world,
+            gait: &gait,
+            file: (&experiment.gait.file, &experiment.gait.text),
+            duration_s: duration.seconds(),
+            pull: &pull,
+        };
+        Ok(PullOutcome {
+            record: pull_record(world.robot(), &gait, duration, &pull),
+            artefacts: crawl::pull::files(&recording, &self.program)?,
+        })
+    }
+}

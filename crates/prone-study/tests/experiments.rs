@@ -1,0 +1,87 @@
+//! An experiment is all that it takes: it is sent as text, read back, and run without a file.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use prone_files::robot_folder::RobotFiles;
+use prone_files::shipped;
+use prone_record::experiment::{
+    CrawlExperiment, Detail, Ending, Experiment, GaitText, PullExperiment, RobotText,
+};
+use prone_study::run::{Outcome, RunError, run};
+use prone_study::watch::{Unwatched, Watch};
+
+fn robot() -> RobotText {
+    RobotText::from_files(&RobotFiles::shipped(&shipped::NAO))
+}
+
+fn gait(name: &str) -> GaitText {
+    let gait = shipped::gait_file(name).unwrap();
+    GaitText::new(&gait.file, &gait.text)
+}
+
+fn crawl() -> CrawlExperiment {
+    CrawlExperiment {
+        ending: Ending::Cycles(1),
+        ..CrawlExperiment::new(robot(), gait("low-175"))
+    }
+}
+
+fn sent(experiment: &Experiment) -> Experiment {
+    serde_json::from_str(&serde_json::to_string(experiment).unwrap()).unwrap()
+}
+
+#[test]
+fn a_crawl_that_was_sent_is_the_crawl_that_was_asked_for() {
+    let experiment = Experiment::Crawl(Box::new(crawl()));
+    let summary = |experiment: &Experiment| match run(experiment, &Unwatched).unwrap() {
+        Outcome::Crawl(crawl) => {
+            assert!(crawl.artefacts.is_none(), "no rows were asked for");
+            crawl.summary
+        }
+        Outcome::Pull(_) => panic!("a crawl was asked for"),
+    };
+    let here = summary(&experiment);
+    assert_eq!(here.cycles, 1);
+    assert!(here.distance_mm > 50.0, "{} mm", here.distance_mm);
+    assert_eq!(summary(&sent(&experiment)), here);
+}
+
+#[test]
+fn a_pull_leaves_the_record_of_a_pull() {
+    let experiment = Experiment::Pull(Box::new(PullExperiment {
+        robot: robot(),
+        gait: gait("nominal"),
+        duration_s: 1.0,
+    }));
+    let Outcome::Pull(pull) = run(&experiment, &Unwatched).unwrap() else {
+        panic!("a pull was asked for");
+    };
+    assert_eq!(pull.record.rows.len(), 20, "one row per control step");
+    assert!(pull.artefacts.contains_key("rows.csv"));
+    assert!(pull.artefacts.contains_key("run.json"));
+}
+
+/// Says stop after so many looks.
+struct After(AtomicUsize);
+
+impl Watch for After {
+    fn stop(&self) -> bool {
+        self.0.fetch_sub(1, Ordering::Relaxed) == 0
+    }
+}
+
+#[test]
+fn an_experiment_is_stopped_and_a_changed_text_refused() {
+    let experiment = Experiment::Crawl(Box::new(crawl()));
+    let stopped = run(&experiment, &After(AtomicUsize::new(20)));
+    assert!(matches!(stopped, Err(RunError::Stopped)));
+    let mut changed = crawl();
+    changed.gait.text.push('\n');
+    let error = run(&Experiment::Crawl(Box::new(changed)), &Unwatched).unwrap_err();
+    assert!(error.to_string().contains("SHA-256"), "{error}");
+    let mut rows = crawl();
+    rows.detail = Detail::Rows;
+    rows.time_step_s = Some(0.1);
+    let error = run(&Experiment::Crawl(Box::new(rows)), &Unwatched).unwrap_err();
+    assert!(error.to_string().contains("0.0001..0.005 s"), "{error}");
+}
