@@ -308,19 +308,22 @@ mod tests {
         assert_eq!(written["regime"]["name"], "locomotion");
         assert_eq!(written["origin"]["kind"], "simulated");
         assert_eq!(written["origin"]["time_step_s"], 0.0025);
-        assert_eq!(
-            written["options"]["until_past_mm"],
-            serde_json::Value::Null
-        );
+        assert_eq!(written["options"]["until_past_mm"], serde_json::Value::Null);
         let again: RecordInfo = serde_json::from_value(written).unwrap();
         assert_eq!(again, info);
     }
 
     #[test]
     fn a_pull_is_known_by_its_duration() {
-        let text = r#"{"time_scale": 1.0, "scene_text": null, "duration_s": 5.0, "start_posture": "p"}"#;
+        let text =
+            r#"{"time_scale": 1.0, "scene_text": null, "duration_s": 5.0, "start_posture": "p"}"#;
         let options: Options = serde_json::from_str(text).unwrap();
-        assert!(matches!(&options, Options::Pull(pull) if pull.start_posture.as_deref() == Some("p")));
-        assert_eq!(serde_json::to_string(&options).unwrap(), text.replace(": ", ":").replace(", ", ","));
+        assert!(
+            matches!(&options, Options::Pull(pull) if pull.start_posture.as_deref() == Some("p"))
+        );
+        assert_eq!(
+            serde_json::to_string(&options).unwrap(),
+            text.replace(": ", ":").replace(", ", ",")
+        );
     }
 }

@@ -42,17 +42,10 @@ pub const ROWS_FILE: &str = "rows.csv";
 pub const CONTACTS_FILE: &str = "contacts.csv";
 
 /// The files of a record.
-pub const FILES: [&str; 5] = [
-    RUN_FILE,
-    MODEL_FILE,
-    ROWS_FILE,
-    CONTACTS_FILE,
-    ROBOT_FILE,
-];
+pub const FILES: [&str; 5] = [RUN_FILE, MODEL_FILE, ROWS_FILE, CONTACTS_FILE, ROBOT_FILE];
 
 /// The compiled robot.
 pub const ROBOT_FILE: &str = prone_files::compiled_robot::FILE_NAME;
-
 
 /// The record of a crawl or a pull.
 #[derive(Debug, Clone, PartialEq)]

@@ -66,7 +66,11 @@ impl Recorded {
         } else if !without.is_empty() {
             let named = without.iter().take(NAMED).copied();
             let mut names: Vec<String> = named.map(str::to_owned).collect();
-            if let Some(others) = without.len().checked_sub(NAMED).filter(|others| *others > 0) {
+            if let Some(others) = without
+                .len()
+                .checked_sub(NAMED)
+                .filter(|others| *others > 0)
+            {
                 names.push(format!("{others} others"));
             }
             sentences.push(format!("{what} of {} was not recorded", names.join(", ")));

@@ -71,9 +71,15 @@ impl Places {
             stage: table.find(STAGE),
             contacts: table.find(CONTACTS),
             root: match root {
-                [Some(x), Some(y), Some(z), Some(qw), Some(qx), Some(qy), Some(qz)] => {
-                    Some([x, y, z, qw, qx, qy, qz])
-                }
+                [
+                    Some(x),
+                    Some(y),
+                    Some(z),
+                    Some(qw),
+                    Some(qx),
+                    Some(qy),
+                    Some(qz),
+                ] => Some([x, y, z, qw, qx, qy, qz]),
                 _ => None,
             },
             ground: ContactGroup::ALL.map(|group| table.find(&format!("{}_n", group.name()))),

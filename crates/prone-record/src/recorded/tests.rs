@@ -344,7 +344,10 @@ fn what_was_not_recorded_is_nan_and_no_damage() {
         Recorded::read(home.path())
     };
     let record = changes(rows).unwrap();
-    assert_eq!((record.joints.as_slice(), record.rows.len()), (&["A".to_owned()][..], 3));
+    assert_eq!(
+        (record.joints.as_slice(), record.rows.len()),
+        (&["A".to_owned()][..], 3)
+    );
     assert_eq!(record.cuts, []);
     assert_eq!((record.stages.len(), record.contact_counts.len()), (0, 0));
     assert_eq!(
