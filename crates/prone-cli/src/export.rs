@@ -10,12 +10,10 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 
 use prone::gait::cycle::{CheckedCycle, TimeScale};
-use prone::regime::Regime;
 use prone_files::cycle_file;
-use prone_record::recorded::{Command, Recorded, RecordedRun};
-use prone_report::export::{key_frames, numpy, ros_log, table, timeline};
-use prone_sim::World;
-use prone_study::export::urdf;
+use prone_record::record_info::RecordInfo;
+use prone_record::recorded::{Command, Recorded, RecordedModel};
+use prone_report::export::{key_frames, numpy, ros_log, table, timeline, urdf};
 
 use crate::args::{ExportArgs, Format};
 use crate::{Failure, interrupt, record_folder, table_file};
@@ -25,7 +23,7 @@ pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
     if !is_film {
         refuse_camera(args)?;
     }
-    let run = RecordedRun::read(&args.run).map_err(Failure::input)?;
+    let run = RecordInfo::read(&args.run).map_err(Failure::input)?;
     let out = place(args)?;
     if args.robot.is_some() {
         // Also where the format does without: a wrong answer is not taken for none.
@@ -63,12 +61,20 @@ fn say(out: &Path, said: &str) -> Result<(), Failure> {
 
 /// The content of a file that is made of the record's tables, and what it holds.
 fn of_tables(args: &ExportArgs, record: &Recorded) -> Result<(Vec<u8>, String), Failure> {
+    let gaps: Vec<String> = record.unrecorded();
+    let gaps: String = gaps.iter().map(|gap| format!("; {gap}")).collect();
     let held = format!("{}, {}", span(record), joints(record));
     match args.format {
-        Format::Csv => Ok((table::of(record).map_err(Failure::work)?, held)),
-        Format::Npz => Ok((numpy::of(record).map_err(Failure::work)?, held)),
+        Format::Csv => {
+            let bytes = table::of(record).map_err(Failure::work)?;
+            Ok((bytes, held + &gaps))
+        }
+        Format::Npz => {
+            let bytes = numpy::of(record).map_err(Failure::work)?;
+            Ok((bytes, held + &gaps))
+        }
         Format::Mcap => {
-            let said = format!("{held}, {} contacts", record.contacts.len());
+            let said = format!("{held}, {} contacts{gaps}", record.contacts.len());
             Ok((ros_log::of(record).map_err(Failure::work)?, said))
         }
         _ => unreachable!("the other formats are made elsewhere"),
@@ -76,32 +82,42 @@ fn of_tables(args: &ExportArgs, record: &Recorded) -> Result<(Vec<u8>, String), 
 }
 
 /// The content of a file that needs no table, and what it holds.
-fn of_run(args: &ExportArgs, run: &RecordedRun) -> Result<(Vec<u8>, String), Failure> {
+fn of_run(args: &ExportArgs, run: &RecordInfo) -> Result<(Vec<u8>, String), Failure> {
     match args.format {
         Format::Urdf => {
-            let robot = origin::robot(args, run)?;
-            let world = World::new(&robot, Regime::LOCOMOTION).map_err(Failure::input)?;
-            let (bodies, joints) = (robot.robot().bodies.len(), robot.robot().joints.len());
-            let said = format!("{}, {bodies} links, {joints} hinges", robot.robot().name);
-            Ok((urdf::of(&world).into_bytes(), said))
+            let robot = origin::recorded_robot(args, run)?;
+            let model = RecordedModel::read(&args.run).map_err(Failure::input)?;
+            let text = urdf::of(&robot, &model).map_err(Failure::input)?;
+            let (bodies, joints) = (robot.bodies.len(), robot.joints.len());
+            let said = format!("{}, {bodies} links, {joints} hinges", robot.name);
+            Ok((text.into_bytes(), said))
         }
         _ => cycle(args, run),
     }
 }
 
 /// One commanded cycle.
-fn cycle(args: &ExportArgs, run: &RecordedRun) -> Result<(Vec<u8>, String), Failure> {
+fn cycle(args: &ExportArgs, run: &RecordInfo) -> Result<(Vec<u8>, String), Failure> {
     let gait = &run.gait;
-    if run.command == Command::ReproducePull {
+    if run.head.command == Command::ReproducePull {
         return Err(Failure::Input(anyhow!(
             "{} is a pull alone: xar and keyframes are a whole cycle, with its way back",
             args.run.display()
         )));
     }
-    let loaded = origin::robot(args, run)?;
-    let robot = loaded.robot();
-    let cycle = cycle_file::parse(&gait.file, &gait.text).map_err(Failure::input)?;
-    let scale = TimeScale::new(run.options.time_scale).map_err(Failure::input)?;
+    let robot = &origin::recorded_robot(args, run)?;
+    let unsaid = |what: &str| {
+        let run = args.run.display();
+        Failure::Input(anyhow!(
+            "{run} does not say {what}: there is no cycle to export"
+        ))
+    };
+    let text = gait.text.as_deref().ok_or_else(|| unsaid("its gait"))?;
+    let file = gait.file.as_deref().unwrap_or(&gait.name);
+    let cycle = cycle_file::parse(file, text).map_err(Failure::input)?;
+    let scale = run.options.time_scale();
+    let scale = scale.ok_or_else(|| unsaid("its time scale"))?;
+    let scale = TimeScale::new(scale).map_err(Failure::input)?;
     let checked =
         CheckedCycle::plan(robot, &robot.stops(), &cycle, 0.0, scale).map_err(Failure::input)?;
     let is_xar = args.format == Format::Xar;

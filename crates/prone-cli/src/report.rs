@@ -186,6 +186,9 @@ fn print(args: &ReportArgs, report: &Report, page: &Path) -> Result<(), Failure>
             .unwrap_or("a robot on the wire, not driven yet");
         writeln!(out, "  no figure {}: {made_by}", missing.number)?;
     }
+    for gap in &numbers.unrecorded {
+        writeln!(out, "  {gap}")?;
+    }
     writeln!(out, "\nreport: {}", page.display())?;
     Ok(())
 }

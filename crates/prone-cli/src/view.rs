@@ -62,7 +62,12 @@ pub(crate) fn run(args: &ViewArgs) -> Result<(), Failure> {
         runs.iter().map(record::Run::rows).sum::<usize>(),
         page.len() as f64 / 1e6
     )?;
-    let notes = runs.iter().map(|run| run.notes().to_vec());
+    for (folder, run) in folders.iter().zip(&runs) {
+        for gap in run.gaps() {
+            writeln!(std::io::stdout(), "{}: {gap}", folder.display())?;
+        }
+    }
+    let notes = runs.iter().map(|run| run.shortfalls().to_vec());
     let records: Vec<_> = folders.into_iter().zip(notes).collect();
     record_folder::say_incomplete(&records)
 }

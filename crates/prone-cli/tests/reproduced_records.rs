@@ -85,8 +85,8 @@ fn identity_a_recorded_pull_is_that_of_the_torque_table() {
 fn records_are_whole_and_small() {
     let record = Recorded::read(&result().join("pulls/nominal-1s")).unwrap();
     assert_eq!(record.cuts, []);
-    assert_eq!(record.run.command, Command::ReproducePull);
-    assert!(record.run.gait.text.contains("constant_deg = 16.5"));
+    assert_eq!(record.run.head.command, Command::ReproducePull);
+    assert!(record.run.gait.text.unwrap().contains("constant_deg = 16.5"));
     assert_eq!(record.stages, [(0, "pull".to_owned())]);
     // The manufacturer's link masses sum to 5.305 kg. In a pull of a second the body still comes to
     // rest on its limbs: the mean is within a tenth of the weight.
@@ -96,7 +96,7 @@ fn records_are_whole_and_small() {
     assert!((carried / weight - 1.0).abs() < 0.1, "{carried} N");
     let crawl = Recorded::read(&result().join("crawls/table-9-cycles")).unwrap();
     assert_eq!(crawl.cuts, []);
-    assert_eq!(crawl.run.command, Command::ReproduceCrawl);
+    assert_eq!(crawl.run.head.command, Command::ReproduceCrawl);
     assert_eq!(crawl.rows.last().unwrap().cycle, 9);
     let size = |folder: &str| -> usize {
         let files = files(&result().join(folder));

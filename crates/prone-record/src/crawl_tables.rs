@@ -6,6 +6,8 @@ use prone::scene::{ContactForce, Obstacle, obstacle_name};
 use prone::steering::Bearing;
 
 use crate::crawl_summary::CrawlSummary;
+use crate::record_info::{Channel, ChannelKind};
+use crate::recorded::Part;
 use crate::tables::{finish, number};
 
 /// `cycles.csv`.
@@ -86,6 +88,52 @@ pub struct Instant<'a> {
     pub ground_from_root: Transform<Ground, Root>,
     /// Highest points.
     pub tops: Tops,
+}
+
+/// The channels of [`rows`] and [`contacts`].
+pub fn channels(robot: &Robot) -> Vec<Channel> {
+    let channel = |table, is, unit: &str, columns: Vec<String>| Channel {
+        table,
+        columns,
+        is,
+        unit: unit.to_owned(),
+    };
+    let named = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
+    let of_joints = |end: &str| {
+        let joints = robot.joints.iter();
+        joints.map(|joint| format!("{}{end}", joint.name)).collect()
+    };
+    let grounds = ContactGroup::ALL.map(|group| format!("{}_n", group.name()));
+    let (rows, places) = (Part::Rows, named(&["x_mm", "y_mm", "z_mm"]));
+    vec![
+        channel(rows, ChannelKind::Instant, "mm", places),
+        channel(
+            rows,
+            ChannelKind::Instant,
+            "1",
+            named(&["qw", "qx", "qy", "qz"]),
+        ),
+        channel(rows, ChannelKind::Instant, "°", named(&["yaw_deg"])),
+        channel(rows, ChannelKind::Instant, "mm", named(&["lateral_mm"])),
+        channel(rows, ChannelKind::Command, "rad", of_joints("_cmd_rad")),
+        channel(rows, ChannelKind::Instant, "rad", of_joints("_rad")),
+        channel(rows, ChannelKind::Mean, "N·m", of_joints("_nm")),
+        channel(rows, ChannelKind::Mean, "N", grounds.to_vec()),
+        channel(rows, ChannelKind::Instant, "mm", tops().to_vec()),
+        channel(rows, ChannelKind::Instant, "1", named(&["contacts"])),
+        channel(
+            Part::Contacts,
+            ChannelKind::Instant,
+            "mm",
+            named(&["x_mm", "y_mm", "z_mm"]),
+        ),
+        channel(
+            Part::Contacts,
+            ChannelKind::Instant,
+            "N",
+            named(&["fx_n", "fy_n", "fz_n"]),
+        ),
+    ]
 }
 
 /// `rows.csv`; yaw and what is lateral are seen from `start`.

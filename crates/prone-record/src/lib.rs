@@ -3,6 +3,7 @@
 //! [`output`] puts result folders in place whole or not at all; [`recorded`] reads the record of a
 //! crawl or a pull, whoever made it. The other modules hold what results say.
 
+pub mod broken_table;
 pub mod contact_story;
 pub mod crawl_summary;
 pub mod crawl_tables;
@@ -11,9 +12,12 @@ pub mod experiment;
 pub mod figure_entry;
 pub mod frontier;
 pub mod gait_search;
+pub mod head;
+pub mod origin;
 pub mod output;
 pub mod program;
 pub mod pulls;
+pub mod record_info;
 pub mod recorded;
 pub mod search;
 pub mod statistics;

@@ -1,16 +1,21 @@
 //! Reading the record folder of a crawl or a pull: `run.json`, `model.json`, `rows.csv`,
-//! `contacts.csv`. Replay, exports and whatever else looks at a record read it here.
+//! `contacts.csv`, `robot.compiled.json`. Replay, exports and whatever else looks at a record read
+//! it here.
 //!
 //! What is read is SI and radians, whatever the columns have. `run.json` says how many rows there
-//! are and how far apart, each row how many contacts it has: a table that was cut off, also between
-//! two lines, or that lacks a line, is read up to that place, and [`Recorded::cuts`] says so. The
-//! two tables are cut apart: rows do not end where `contacts.csv` does.
+//! are, how far apart if they are evenly spaced, and which channels were recorded; each row says how
+//! many contacts it has. A table that was cut off, also between two lines, or that lacks a line, is
+//! read up to that place, and [`Recorded::cuts`] says so. The two tables are cut apart: rows do not
+//! end where `contacts.csv` does. A channel that was not recorded, or a cell that is empty, is NaN,
+//! and [`Recorded::unrecorded`] says so.
 
 mod contacts;
 mod cut;
 mod error;
 mod kinematics;
+mod missing;
 mod model;
+mod robot;
 mod rows;
 mod run;
 mod table;
@@ -22,13 +27,12 @@ use prone::robot::JointAngles;
 
 pub use cut::{Cut, Damage, Part};
 pub use error::ReadError;
-pub use model::{Hinge, RecordedBody};
-pub use run::{
-    Command, Extent, RecordedGait, RecordedOptions, RecordedRobot, RecordedRun, RecordedScene,
-};
+pub use model::{Hinge, Inertia, MODEL_FILE, RecordedBody, RecordedShape};
+pub use robot::{RecordedModel, compiled_robot};
+pub use run::Command;
 
 use crate::output::RUN_FILE;
-pub use model::MODEL_FILE;
+use crate::record_info::RecordInfo;
 use rows::Rows;
 use table::Table;
 
@@ -38,44 +42,49 @@ pub const ROWS_FILE: &str = "rows.csv";
 pub const CONTACTS_FILE: &str = "contacts.csv";
 
 /// The files of a record.
-pub const FILES: [&str; 4] = [RUN_FILE, MODEL_FILE, ROWS_FILE, CONTACTS_FILE];
+pub const FILES: [&str; 5] = [RUN_FILE, MODEL_FILE, ROWS_FILE, CONTACTS_FILE, ROBOT_FILE];
+
+/// The compiled robot.
+pub const ROBOT_FILE: &str = prone_files::compiled_robot::FILE_NAME;
 
 /// The record of a crawl or a pull.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recorded {
     /// Under which conditions it was made.
-    pub run: RecordedRun,
+    pub run: RecordInfo,
     /// `model.json` as it stands, for who draws.
     pub model: serde_json::Value,
     /// Parents before children; the first one is the root.
     pub bodies: Vec<RecordedBody>,
-    /// Names of the joints, in the order of every row.
+    /// Names of the joints, in the order of every row; joints of the model of which nothing was
+    /// recorded stand last.
     pub joints: Vec<String>,
     /// The underside's height and the length of the first plate, m, where there is one.
     pub plate: Option<(f64, f64)>,
-    /// In the order of time, [`Extent::row_step_s`] apart; at least one.
+    /// In the order of time; at least one.
     pub rows: Vec<RecordedRow>,
-    /// From which row on, by name.
+    /// From which row on, by name; none where that was not recorded.
     pub stages: Vec<(usize, String)>,
     /// All columns of numbers by their names in `rows.csv`, in its units; an empty cell is NaN.
     pub columns: Vec<(String, Vec<f64>)>,
     /// In the order of time.
     pub contacts: Vec<RecordedContact>,
-    /// How many of them each row has; fewer entries than rows where `contacts.csv` breaks off.
+    /// How many of them each row has; fewer entries than rows where `contacts.csv` breaks off, none
+    /// where contacts were not recorded.
     pub contact_counts: Vec<usize>,
     /// Tables of which something is missing.
     pub cuts: Vec<Cut>,
 }
 
-/// One instant.
+/// One instant. A number that was not recorded is NaN.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecordedRow {
     /// Since the first pull began, s.
     pub time_s: f64,
-    /// From 1.
+    /// From 1; 1 where cycles were not recorded.
     pub cycle: usize,
-    /// Pose of the root.
-    pub ground_from_root: Transform<Ground, Root>,
+    /// Pose of the root; `None` where it was not recorded.
+    pub ground_from_root: Option<Transform<Ground, Root>>,
     /// What was commanded.
     pub command: JointAngles,
     /// What was reached.
@@ -108,7 +117,7 @@ impl Recorded {
     /// # Errors
     /// [`ReadError`].
     pub fn read(folder: &Path) -> Result<Self, ReadError> {
-        let run = RecordedRun::read(folder)?;
+        let run = RecordInfo::read(folder)?;
         let model = model::Model::read(folder)?;
         let rows_text = error::text(folder, ROWS_FILE)?;
         let rows_table = Table::new(Part::Rows, &rows_text);
@@ -119,9 +128,13 @@ impl Recorded {
             columns,
             contact_counts,
             cut: rows_cut,
-        } = Rows::of(&rows_table, &run.record, folder)?;
+        } = Rows::of(&rows_table, &run.record, &model.joints(), folder)?;
         let bodies = model.bodies(&joints)?;
-        let found = contacts::read(folder, &bodies, &rows, &contact_counts, rows_cut.as_ref())?;
+        let found = if run.record.has(Part::Contacts) {
+            contacts::read(folder, &bodies, &rows, &contact_counts, rows_cut.as_ref())?
+        } else {
+            contacts::Contacts::default()
+        };
         Ok(Self {
             run,
             plate: model.plate(),

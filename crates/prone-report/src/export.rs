@@ -5,6 +5,7 @@
 //! | [`table`] | CSV, one line per joint and instant | data frames, plots |
 //! | [`ros_log`] | MCAP with the messages of ROS 2 | Foxglove, Rerun, `PlotJuggler` |
 //! | [`numpy`] | `.npz` | `NumPy` |
+//! | [`urdf`] | the robot as URDF | ROS, physics engines |
 //! | [`key_frames`] | one cycle as JSON | reinforcement learning |
 //! | [`timeline`] | one cycle as a Choregraphe project | Choregraphe |
 //!
@@ -15,3 +16,4 @@ pub mod numpy;
 pub mod ros_log;
 pub mod table;
 pub mod timeline;
+pub mod urdf;

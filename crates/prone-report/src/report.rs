@@ -41,8 +41,10 @@ use crate::figures::PNG_SCALE;
 use crawl_run::{CrawlRun, PullRun};
 use drawn_run::DrawnRun;
 use folder::Given;
+use prone_record::head::Head;
 use prone_record::output::{Artefacts, RUN_FILE, json};
 use prone_record::program::Program;
+use prone_record::record_info::RecordInfo;
 use search_run::SearchRun;
 use shown::Shown;
 
@@ -95,8 +97,10 @@ pub struct Numbers {
     pub missing: Vec<MissingEntry>,
     /// Folders in the replay.
     pub replayed: Vec<String>,
-    /// What is missing of the records, one sentence each.
+    /// What is missing of the records because tables break off, one sentence each.
     pub shortfalls: Vec<String>,
+    /// What the records never had, one sentence each.
+    pub unrecorded: Vec<String>,
     /// How many figures the publication has.
     #[serde(skip)]
     places: usize,
@@ -166,7 +170,7 @@ impl Report {
             .collect();
         // Those that the user named first; stable.
         crawls.sort_by_key(|crawl| crawl.folder.given == Given::Within);
-        let cards: Vec<Card> = crawls.into_iter().map(Card::of).collect();
+        let cards: Vec<Card> = crawls.into_iter().filter_map(Card::from_crawl).collect();
         let page = page::Page {
             runs: &runs,
             shown: &shown,
@@ -184,6 +188,7 @@ impl Report {
                 missing: missing(&shown, publication),
                 replayed,
                 shortfalls: runs.iter().flat_map(Run::shortfalls).collect(),
+                unrecorded: runs.iter().flat_map(Run::unrecorded).cloned().collect(),
                 places: places(publication).count(),
             },
             shown,
@@ -237,9 +242,7 @@ impl Report {
         let numbers = json(&self.numbers).map_err(ReportError::Encode)?;
         artefacts.insert(NUMBERS_FILE.to_owned(), numbers);
         let info = ReportInfo {
-            program: "prone",
-            built: program.clone(),
-            command: "report",
+            head: Head::new(program, "report", None),
             runs: &self.numbers.runs,
         };
         let info = json(&info).map_err(ReportError::Encode)?;
@@ -251,10 +254,8 @@ impl Report {
 /// What made a report: `run.json`.
 #[derive(Serialize)]
 struct ReportInfo<'a> {
-    program: &'static str,
     #[serde(flatten)]
-    built: Program,
-    command: &'static str,
+    head: Head<&'static str>,
     runs: &'a [RunEntry],
 }
 
@@ -276,7 +277,7 @@ fn read(
         }
         return Ok(runs);
     }
-    let run = match folder.command.as_str() {
+    let run = match folder.head.command.as_str() {
         "crawl run" | "reproduce crawl" => Run::Crawl(Box::new(CrawlRun::read(folder)?)),
         "reproduce pull" => Run::Pull(Box::new(PullRun::read(folder)?)),
         "optimize" if folder.said("/source").as_deref() == Some("cycle") => {
@@ -310,8 +311,8 @@ impl Run {
         let folder = self.folder();
         RunEntry {
             folder: folder.name.clone(),
-            command: folder.command.clone(),
-            commit: folder.commit.clone(),
+            command: folder.head.command.clone(),
+            commit: folder.head.commit.clone(),
         }
     }
 
@@ -324,6 +325,24 @@ impl Run {
             Self::Crawl(run) => run.notes.clone(),
             Self::Pull(run) => run.notes.clone(),
             Self::Drawn(run) => said(&run.cuts),
+        }
+    }
+
+    /// What its record never had, one sentence each.
+    fn unrecorded(&self) -> &[String] {
+        match self {
+            Self::Crawl(run) => &run.gaps,
+            Self::Pull(run) => &run.gaps,
+            Self::Published(..) | Self::Search(_) | Self::Drawn(_) => &[],
+        }
+    }
+
+    /// What a record says of itself.
+    fn record(&self) -> Option<&RecordInfo> {
+        match self {
+            Self::Crawl(run) => Some(&run.info),
+            Self::Pull(run) => Some(&run.info),
+            Self::Published(..) | Self::Search(_) | Self::Drawn(_) => None,
         }
     }
 }

@@ -14,6 +14,7 @@ pub mod camera;
 pub mod crawl;
 pub mod driven;
 mod engine_log;
+mod engine_options;
 pub mod imu;
 mod load;
 mod model_view;
@@ -23,6 +24,7 @@ pub mod settled;
 mod simulation;
 mod world;
 
+pub use engine_options::{EngineOptions, EngineServo};
 pub use load::{LoadError, LoadedRobot, ModelProblem, RobotFiles};
 pub use model_view::{InertiaView, ShapeView};
 pub use simulation::{

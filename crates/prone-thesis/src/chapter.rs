@@ -59,7 +59,7 @@ impl Publication for Thesis {
     }
 
     fn read(&self, folder: &Folder) -> Option<Result<Box<dyn PublishedRun>, ReportError>> {
-        (folder.command == COMMAND).then(|| {
+        (folder.head.command == COMMAND).then(|| {
             let run = StudyRun::read(folder)?;
             Ok(Box::new(run) as Box<dyn PublishedRun>)
         })

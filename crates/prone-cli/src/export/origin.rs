@@ -5,9 +5,11 @@ use std::path::Path;
 use anyhow::anyhow;
 
 use prone::regime::Regime;
+use prone::robot::Robot;
 use prone::scene::Scene;
 use prone_files::{scene_file, shipped};
-use prone_record::recorded::{Recorded, RecordedRun};
+use prone_record::record_info::RecordInfo;
+use prone_record::recorded::{Recorded, compiled_robot};
 use prone_sim::{LoadedRobot, RobotFiles, World};
 
 use crate::Failure;
@@ -15,7 +17,7 @@ use crate::args::ExportArgs;
 
 /// The files of the robot that crawled: of --robot, one that ships, or that of the folder in
 /// the record. They must be those of the record.
-pub(super) fn files(args: &ExportArgs, run: &RecordedRun) -> Result<RobotFiles, Failure> {
+pub(super) fn files(args: &ExportArgs, run: &RecordInfo) -> Result<RobotFiles, Failure> {
     let recorded = &run.robot;
     let mut shipped = shipped::families()
         .flat_map(|family| family.versions)
@@ -43,14 +45,24 @@ pub(super) fn files(args: &ExportArgs, run: &RecordedRun) -> Result<RobotFiles, 
 }
 
 /// The robot of these files.
-pub(super) fn robot(args: &ExportArgs, run: &RecordedRun) -> Result<LoadedRobot, Failure> {
+pub(super) fn robot(args: &ExportArgs, run: &RecordInfo) -> Result<LoadedRobot, Failure> {
     LoadedRobot::load(files(args, run)?).map_err(Failure::input)
+}
+
+/// The robot as it was compiled: of the record, or of --robot, whose files must be those of the
+/// record.
+pub(super) fn recorded_robot(args: &ExportArgs, run: &RecordInfo) -> Result<Robot, Failure> {
+    if args.robot.is_some() {
+        return Ok(robot(args, run)?.robot().as_ref().clone());
+    }
+    let compiled = compiled_robot(&args.run, run).map_err(Failure::input)?;
+    Ok(compiled.into_robot())
 }
 
 /// Robot and scene, to be looked at.
 pub(super) fn world(robot: &LoadedRobot, record: &Recorded) -> Result<World, Failure> {
     let run = &record.run;
-    let scene = match (&run.options.scene_text, record.plate) {
+    let scene = match (run.options.scene_text(), record.plate) {
         (Some(text), _) => scene_file::parse(&run.scene.name, text).map_err(Failure::input)?,
         (None, Some((height, length))) => Scene::under_plate(height, length),
         (None, None) => Scene::level(),

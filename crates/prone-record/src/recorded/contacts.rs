@@ -17,9 +17,11 @@ use super::{
 const MOST_NAMES: usize = 10_000;
 
 /// What `contacts.csv` holds.
+#[derive(Default)]
 pub(super) struct Contacts {
     pub(super) points: Vec<RecordedContact>,
-    /// Of how many rows, from the first on, all contacts are there.
+    /// Of how many rows, from the first on, all contacts are there; none where contacts were not
+    /// recorded.
     pub(super) rows: usize,
     pub(super) cut: Option<Cut>,
 }

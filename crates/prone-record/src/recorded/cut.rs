@@ -1,13 +1,17 @@
 //! What is missing of a table, where, and by what that is known.
 
+use serde::{Deserialize, Serialize};
+
 use super::{CONTACTS_FILE, ROWS_FILE};
 
 /// A table of a record.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Part {
     /// `rows.csv`.
+    #[serde(rename = "rows.csv")]
     Rows,
     /// `contacts.csv`.
+    #[serde(rename = "contacts.csv")]
     Contacts,
 }
 
@@ -65,6 +69,14 @@ pub enum Damage {
         found: f64,
         /// What follows after the rows before, s.
         due: f64,
+    },
+    /// Rows of a record without a fixed step must follow one another.
+    #[error("{found} s, which does not follow {last} s of the row before")]
+    Order {
+        /// What stands there, s.
+        found: f64,
+        /// Time of the row before, s.
+        last: f64,
     },
     /// The quaternion of the root is no turn.
     #[error("the root's quaternion has the length {length:.4}")]

@@ -3,6 +3,11 @@
 use std::fs;
 use std::path::Path;
 
+use prone_files::compiled_robot::CompiledRobotError;
+
+use crate::head::HeadError;
+use crate::record_info::FORMAT;
+
 /// Why a folder cannot be read as a record.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError {
@@ -30,30 +35,27 @@ pub enum ReadError {
         /// Folders in it that are recorded runs.
         inside: Vec<String>,
     },
-    /// It is the result of another version.
+    /// There is no result of this version of the program.
+    #[error(transparent)]
+    Head(#[from] HeadError),
+    /// The record has another format than this build reads.
     #[error(
-        "{folder} was recorded by prone {found}, this is prone {ours}, which reads its own records \
-         only: record it anew"
+        "{file}: the record has format {found}, written by prone {version} of commit {commit}; this \
+         build of prone reads format {FORMAT}: record it anew"
     )]
-    Version {
-        /// The folder.
-        folder: String,
-        /// What wrote it.
-        found: String,
-        /// What reads it.
-        ours: &'static str,
+    Format {
+        /// Path of `run.json`.
+        file: String,
+        /// Its format; records that state none have format 1.
+        found: u64,
+        /// Version of the program that wrote it.
+        version: String,
+        /// Commit that the program was built from.
+        commit: String,
     },
-    /// An earlier build of this version did not write how long the tables are.
-    #[error(
-        "{folder} was recorded by an earlier build of prone {ours}, which did not say how many rows \
-         there are: record it anew"
-    )]
-    Uncounted {
-        /// The folder.
-        folder: String,
-        /// What reads it.
-        ours: &'static str,
-    },
+    /// The compiled robot cannot be used.
+    #[error(transparent)]
+    Robot(#[from] CompiledRobotError),
     /// A file cannot be read.
     #[error("cannot read {file}: {source}")]
     File {

@@ -31,6 +31,38 @@ pub struct RecordedBody {
     pub parent_from_body: Transform<Link, Link>,
     /// What moves it in its parent.
     pub hinge: Option<Hinge>,
+    /// How hard it is to turn, where the record says.
+    pub inertia: Option<Inertia>,
+}
+
+/// How hard a body is to turn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Inertia {
+    /// Moments about the principal axes, through the centre of mass, kg·m².
+    pub principal: DVec3,
+    /// From the principal axes to the body's own.
+    pub rotation: DQuat,
+}
+
+/// A shape of the robot, whether it collides or is only seen.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RecordedShape {
+    /// The body that it is fixed to, by its place among the bodies.
+    pub body: usize,
+    /// `sphere`, `capsule`, `cylinder`, `ellipsoid` or `box`; long axis along z.
+    pub kind: String,
+    /// Radius and half-length along z, half-axes, or half-edges, as many as the kind has, m.
+    pub size: Vec<f64>,
+    /// Its middle in the body, m.
+    pub position: DVec3,
+    /// Its turn in the body.
+    pub rotation: DQuat,
+    /// Red, green, blue, opacity, 0 to 1.
+    pub colour: [f64; 4],
+    /// The engine's group: 0 to 2 are drawn.
+    pub group: i32,
+    /// Whether it collides.
+    pub collides: bool,
 }
 
 /// A hinge of a body.
@@ -55,11 +87,29 @@ pub(super) struct Model {
 struct Parts {
     bodies: Vec<BodyEntry>,
     obstacles: Vec<ObstacleEntry>,
-    // The page draws them; here they only have to be there.
-    #[serde(rename = "shapes")]
-    _shapes: Vec<Value>,
+    shapes: Vec<ShapeEntry>,
+    // The page draws it; here it only has to be there.
     #[serde(rename = "chain")]
     _chain: Value,
+}
+
+#[derive(Deserialize)]
+struct ShapeEntry {
+    body: usize,
+    #[serde(rename = "type")]
+    kind: String,
+    size: Vec<f64>,
+    position: [f64; 3],
+    quaternion: [f64; 4],
+    rgba: [f64; 4],
+    group: i32,
+    collides: bool,
+}
+
+#[derive(Deserialize)]
+struct InertiaEntry {
+    principal: [f64; 3],
+    quaternion: [f64; 4],
 }
 
 #[derive(Deserialize)]
@@ -69,6 +119,7 @@ struct BodyEntry {
     position: [f64; 3],
     quaternion: [f64; 4],
     joint: Option<JointEntry>,
+    inertia: Option<InertiaEntry>,
 }
 
 #[derive(Deserialize)]
@@ -117,6 +168,37 @@ impl Model {
         bodies.collect()
     }
 
+    /// Names of the joints of the bodies, in the order of the bodies.
+    pub(super) fn joints(&self) -> Vec<String> {
+        let joints = self.parts.bodies.iter();
+        let joints = joints.filter_map(|body| Some(body.joint.as_ref()?.name.clone()));
+        joints.collect()
+    }
+
+    /// The robot's shapes, each fixed to one of the bodies.
+    pub(super) fn shapes(&self) -> Result<Vec<RecordedShape>, ReadError> {
+        let bodies = self.parts.bodies.len();
+        let shapes = self.parts.shapes.iter().map(|shape| {
+            if shape.body >= bodies {
+                return Err(ReadError::Model {
+                    file: self.file.clone(),
+                    problem: format!("a shape is fixed to body {} of {bodies}", shape.body),
+                });
+            }
+            Ok(RecordedShape {
+                body: shape.body,
+                kind: shape.kind.clone(),
+                size: shape.size.clone(),
+                position: DVec3::from_array(shape.position),
+                rotation: real_first(shape.quaternion),
+                colour: shape.rgba,
+                group: shape.group,
+                collides: shape.collides,
+            })
+        });
+        shapes.collect()
+    }
+
     pub(super) fn plate(&self) -> Option<(f64, f64)> {
         let obstacles = self.parts.obstacles.iter();
         let plate = obstacles.into_iter().find(|it| it.kind == "plate")?;
@@ -132,8 +214,7 @@ impl BodyEntry {
         if self.parent.is_none() != (index == 0) || self.parent.is_some_and(|it| it >= index) {
             return Err(format!("body {name} does not follow its parent"));
         }
-        let [w, x, y, z] = self.quaternion;
-        let turn = DQuat::from_xyzw(x, y, z, w);
+        let turn = real_first(self.quaternion);
         if (turn.length() - 1.0).abs() > UNIT {
             return Err(format!(
                 "the quaternion of body {name} has not the length 1"
@@ -160,6 +241,15 @@ impl BodyEntry {
             parent: self.parent,
             parent_from_body: Transform::new(turn, DVec3::from_array(self.position)),
             hinge,
+            inertia: self.inertia.as_ref().map(|inertia| Inertia {
+                principal: DVec3::from_array(inertia.principal),
+                rotation: real_first(inertia.quaternion),
+            }),
         })
     }
+}
+
+/// A quaternion whose real part stands first.
+const fn real_first([w, x, y, z]: [f64; 4]) -> DQuat {
+    DQuat::from_xyzw(x, y, z, w)
 }

@@ -1,20 +1,34 @@
-//! `rows.csv`: all instants.
+//! `rows.csv`: all instants, with the channels that were recorded.
 
 use std::path::Path;
 
 use glam::{DQuat, DVec3};
 
-use prone::frames::Transform;
+use prone::frames::{Ground, Root, Transform};
 use prone::robot::{ContactGroup, JointAngles};
 
 use super::table::{Cells, Table, same_instant};
-use super::{Cut, Damage, Extent, ReadError, RecordedRow};
+use super::{Cut, Damage, Part, ROWS_FILE, ReadError, RecordedRow};
+use crate::record_info::Extent;
 
 /// End of the column of a joint's command; the joint's name is before it.
-const COMMAND_COLUMN: &str = "_cmd_rad";
+const COMMAND_END: &str = "_cmd_rad";
+/// End of the column of a joint's angle.
+const ANGLE_END: &str = "_rad";
+/// End of the column of a joint's torque.
+const TORQUE_END: &str = "_nm";
+
+const TIME: &str = "time_s";
+const CYCLE: &str = "cycle";
 
 /// The only column that holds no numbers.
 const STAGE: &str = "stage";
+
+/// The column of how many contacts an instant has.
+pub(super) const CONTACTS: &str = "contacts";
+
+/// Columns that say which row it is: they are no channels.
+const LABELS: [&str; 4] = [TIME, CYCLE, STAGE, "s"];
 
 /// How far the length of a recorded quaternion may be from one: it has seven decimals.
 const UNIT: f64 = 1e-4;
@@ -25,76 +39,150 @@ pub(super) struct Rows {
     pub(super) instants: Vec<RecordedRow>,
     pub(super) stages: Vec<(usize, String)>,
     pub(super) columns: Vec<(String, Vec<f64>)>,
-    /// How many contacts each row has.
+    /// How many contacts each row has; empty where that was not recorded.
     pub(super) contact_counts: Vec<usize>,
     pub(super) cut: Option<Cut>,
 }
 
-/// Where the columns are.
+/// Where the columns are that there are.
 struct Places {
-    fixed: [usize; 8],
-    cycle: usize,
-    contacts: usize,
-    stage: usize,
-    ground: [usize; 4],
-    commands: Vec<usize>,
-    angles: Vec<usize>,
-    torques: Vec<usize>,
+    time: usize,
+    cycle: Option<usize>,
+    stage: Option<usize>,
+    contacts: Option<usize>,
+    /// x, y, z; w, x, y, z of the root's quaternion.
+    root: Option<[usize; 7]>,
+    ground: [Option<usize>; 4],
+    commands: Vec<Option<usize>>,
+    angles: Vec<Option<usize>>,
+    torques: Vec<Option<usize>>,
 }
 
 impl Places {
     fn of(table: &Table, joints: &[String], folder: &Path) -> Result<Self, ReadError> {
-        let fixed = ["time_s", "x_mm", "y_mm", "z_mm", "qw", "qx", "qy", "qz"];
-        let ground = ContactGroup::ALL.map(|group| format!("{}_n", group.name()));
-        let of_joints = |end: &str| -> Result<Vec<usize>, ReadError> {
+        let of_joints = |end: &str| {
             let names = joints.iter().map(|joint| format!("{joint}{end}"));
-            names.map(|name| table.column(folder, &name)).collect()
+            names.map(|name| table.find(&name)).collect()
         };
+        let root = ["x_mm", "y_mm", "z_mm", "qw", "qx", "qy", "qz"].map(|name| table.find(name));
         Ok(Self {
-            fixed: table.columns(folder, fixed)?,
-            cycle: table.column(folder, "cycle")?,
-            contacts: table.column(folder, "contacts")?,
-            stage: table.column(folder, STAGE)?,
-            ground: table.columns(folder, ground)?,
-            commands: of_joints(COMMAND_COLUMN)?,
-            angles: of_joints("_rad")?,
-            torques: of_joints("_nm")?,
+            time: table.column(folder, TIME)?,
+            cycle: table.find(CYCLE),
+            stage: table.find(STAGE),
+            contacts: table.find(CONTACTS),
+            root: match root {
+                [
+                    Some(x),
+                    Some(y),
+                    Some(z),
+                    Some(qw),
+                    Some(qx),
+                    Some(qy),
+                    Some(qz),
+                ] => Some([x, y, z, qw, qx, qy, qz]),
+                _ => None,
+            },
+            ground: ContactGroup::ALL.map(|group| table.find(&format!("{}_n", group.name()))),
+            commands: of_joints(COMMAND_END),
+            angles: of_joints(ANGLE_END),
+            torques: of_joints(TORQUE_END),
         })
     }
 
     fn row(&self, cells: Cells<'_>) -> Result<RecordedRow, Damage> {
-        let [time_s, x, y, z, qw, qx, qy, qz] = cells.numbers(self.fixed)?;
+        let posture = |columns: &[Option<usize>]| -> Result<JointAngles, Damage> {
+            JointAngles::try_from_fn(columns.len(), |joint| cells.recorded(columns[joint.0]))
+        };
+        let torques = self.torques.iter().map(|&at| cells.recorded(at));
+        let torques: Vec<f64> = torques.collect::<Result<_, Damage>>()?;
+        let mut ground_n = [f64::NAN; 4];
+        for (force, column) in ground_n.iter_mut().zip(self.ground) {
+            *force = cells.recorded(column)?;
+        }
+        let [time_s] = cells.numbers([self.time])?;
+        Ok(RecordedRow {
+            time_s,
+            cycle: self.cycle.map_or(Ok(1), |column| cells.count(column))?,
+            ground_from_root: self.pose(cells)?,
+            command: posture(&self.commands)?,
+            angles: posture(&self.angles)?,
+            actuator_torque_nm: torques,
+            ground_n,
+        })
+    }
+
+    /// Pose of the root; nothing where a part of it was not recorded.
+    fn pose(&self, cells: Cells<'_>) -> Result<Option<Transform<Ground, Root>>, Damage> {
+        let Some(columns) = self.root else {
+            return Ok(None);
+        };
+        let mut numbers = [f64::NAN; 7];
+        for (number, column) in numbers.iter_mut().zip(columns) {
+            *number = cells.recorded(Some(column))?;
+        }
+        let [x, y, z, qw, qx, qy, qz] = numbers;
+        if numbers.iter().any(|number| number.is_nan()) {
+            return Ok(None);
+        }
         let turn = DQuat::from_xyzw(qx, qy, qz, qw);
         let length = turn.length();
         if (length - 1.0).abs() > UNIT {
             return Err(Damage::Turn { length });
         }
-        let number = |column: usize| Ok(cells.numbers([column])?[0]);
-        let posture = |columns: &[usize]| -> Result<JointAngles, Damage> {
-            JointAngles::try_from_fn(columns.len(), |joint| number(columns[joint.0]))
-        };
-        let torques: Result<_, Damage> = self.torques.iter().map(|&at| number(at)).collect();
-        Ok(RecordedRow {
-            time_s,
-            cycle: cells.count(self.cycle)?,
-            ground_from_root: Transform::new(turn.normalize(), DVec3::new(x, y, z) / 1e3),
-            command: posture(&self.commands)?,
-            angles: posture(&self.angles)?,
-            actuator_torque_nm: torques?,
-            ground_n: cells.numbers(self.ground)?,
-        })
+        let at = DVec3::new(x, y, z) / 1e3;
+        Ok(Some(Transform::new(turn.normalize(), at)))
+    }
+}
+
+/// Names of the joints of which something was recorded, in the order of their first columns.
+fn joints(table: &Table) -> Vec<String> {
+    let mut joints: Vec<String> = Vec::new();
+    for column in table.header() {
+        let ends = [COMMAND_END, ANGLE_END, TORQUE_END];
+        let joint = ends.iter().find_map(|end| column.strip_suffix(end));
+        if let Some(joint) = joint
+            && !joints.iter().any(|known| known == joint)
+        {
+            joints.push(joint.to_owned());
+        }
+    }
+    joints
+}
+
+/// Checks that a table has what `run.json` lists, and nothing else.
+fn check_header(table: &Table, extent: &Extent, folder: &Path) -> Result<(), ReadError> {
+    for column in extent.columns(Part::Rows) {
+        table.column(folder, column)?;
+    }
+    let mut strangers = table.header().filter(|column| {
+        !LABELS.contains(column) && extent.columns(Part::Rows).all(|known| known != *column)
+    });
+    match strangers.next() {
+        None => Ok(()),
+        Some(column) => Err(ReadError::Model {
+            file: folder.join(ROWS_FILE).display().to_string(),
+            problem: format!("record.channels of run.json does not list the column {column}"),
+        }),
     }
 }
 
 impl Rows {
-    /// The rows of a table, up to where one is damaged or missing.
-    pub(super) fn of(table: &Table, extent: &Extent, folder: &Path) -> Result<Self, ReadError> {
-        let commands = table.header();
-        let joints: Vec<String> = commands
-            .filter_map(|column| column.strip_suffix(COMMAND_COLUMN))
-            .map(str::to_owned)
-            .collect();
+    /// The rows of a table, up to where one is damaged or missing. `model_joints` that have no
+    /// column follow those that have.
+    pub(super) fn of(
+        table: &Table,
+        extent: &Extent,
+        model_joints: &[String],
+        folder: &Path,
+    ) -> Result<Self, ReadError> {
+        let mut joints = joints(table);
+        for joint in model_joints {
+            if !joints.contains(joint) {
+                joints.push(joint.clone());
+            }
+        }
         let places = Places::of(table, &joints, folder)?;
+        check_header(table, extent, folder)?;
         let numbers: Vec<(usize, &str)> = table
             .header()
             .enumerate()
@@ -118,22 +206,20 @@ impl Rows {
                 return Err(Damage::ManyRows { expected });
             }
             let row = places.row(cells)?;
-            let due = (index + 1) as f64 * extent.row_step_s;
-            if !same_instant(row.time_s, due) {
-                let found = row.time_s;
-                return Err(Damage::Time { found, due });
-            }
+            check_time(row.time_s, extent.row_step_s, index, found.instants.last())?;
             let values: Vec<Option<f64>> = numbers
                 .iter()
                 .map(|&(column, _)| cells.optional(column))
                 .collect::<Result<_, _>>()?;
-            found.contact_counts.push(cells.count(places.contacts)?);
+            if let Some(column) = places.contacts {
+                found.contact_counts.push(cells.count(column)?);
+            }
             found.instants.push(row);
             for ((_, column), value) in found.columns.iter_mut().zip(values) {
                 column.push(value.unwrap_or(f64::NAN));
             }
-            let stage = cells.text(places.stage);
-            if found.stages.last().is_none_or(|(_, last)| last != stage) {
+            let stage = places.stage.map_or("", |column| cells.text(column));
+            if !stage.is_empty() && found.stages.last().is_none_or(|(_, last)| last != stage) {
                 found.stages.push((index, stage.to_owned()));
             }
             Ok(())
@@ -155,5 +241,30 @@ impl Rows {
             }),
             _ => Ok(found),
         }
+    }
+}
+
+/// Checks that a row is the one that is due, or follows the one before where rows have no fixed
+/// step.
+fn check_time(
+    found: f64,
+    row_step_s: Option<f64>,
+    index: usize,
+    before: Option<&RecordedRow>,
+) -> Result<(), Damage> {
+    match (row_step_s, before) {
+        (Some(step), _) => {
+            let due = (index + 1) as f64 * step;
+            if same_instant(found, due) {
+                Ok(())
+            } else {
+                Err(Damage::Time { found, due })
+            }
+        }
+        (None, Some(before)) if found <= before.time_s => {
+            let last = before.time_s;
+            Err(Damage::Order { found, last })
+        }
+        (None, _) => Ok(()),
     }
 }

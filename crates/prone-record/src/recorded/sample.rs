@@ -27,14 +27,30 @@ pub(crate) const MODEL: &str = r#"{"bodies": [
     "shapes": [], "chain": {},
     "obstacles": [{"kind": "plate", "half_edges": [0.75, 0.5, 0.009], "position": [0.8, 0, 0.209]}]}"#;
 
+/// The channels of [`ROWS`] and [`CONTACTS`].
+pub(crate) const CHANNELS: &str = r#"[
+    {"table": "rows.csv", "columns": ["x_mm", "y_mm", "z_mm"], "is": "instant", "unit": "mm"},
+    {"table": "rows.csv", "columns": ["qw", "qx", "qy", "qz"], "is": "instant", "unit": "1"},
+    {"table": "rows.csv", "columns": ["A_cmd_rad"], "is": "command", "unit": "rad"},
+    {"table": "rows.csv", "columns": ["A_rad"], "is": "instant", "unit": "rad"},
+    {"table": "rows.csv", "columns": ["A_nm"], "is": "mean over the row", "unit": "N·m"},
+    {"table": "rows.csv", "columns": ["toe_n", "elbow_n", "torso_n", "leg_n"], "is": "mean over the row", "unit": "N"},
+    {"table": "rows.csv", "columns": ["contacts"], "is": "instant", "unit": "1"},
+    {"table": "contacts.csv", "columns": ["x_mm", "y_mm", "z_mm"], "is": "instant", "unit": "mm"},
+    {"table": "contacts.csv", "columns": ["fx_n", "fy_n", "fz_n"], "is": "instant", "unit": "N"}]"#;
+
+/// Where the sample comes from.
+pub(crate) const ORIGIN: &str = r#"{"kind": "imported", "from": "a test"}"#;
+
 pub(crate) fn run_json() -> String {
     format!(
         r#"{{"program": "prone", "version": "{}", "commit": "c", "command": "crawl run",
         "robot": {{"name": "r", "folder": "f", "sha256": "s"}},
         "gait": {{"name": "g", "description": "d", "file": "g.toml", "text": ""}},
         "scene": {{"name": "level"}},
+        "origin": {ORIGIN},
         "options": {{"time_scale": 1.0, "scene_text": null, "steering": "none"}},
-        "record": {{"rows": 3, "row_step_s": 0.02}}}}"#,
+        "record": {{"format": 2, "rows": 3, "row_step_s": 0.02, "channels": {CHANNELS}}}}}"#,
         env!("CARGO_PKG_VERSION")
     )
 }

@@ -1,10 +1,11 @@
-//! A CSV file up to where it breaks off.
+//! A table of a record, and what its cells may hold.
 
 use std::path::Path;
 
-use csv::{ReaderBuilder, StringRecord};
+use csv::StringRecord;
 
 use super::{Cut, Damage, Part, ReadError};
+use crate::broken_table::{Break, BrokenTable};
 
 /// No quantity of a record comes near: not in mm, N, N·m, degrees or seconds.
 const LARGEST: f64 = 1e9;
@@ -15,65 +16,23 @@ const SAME_INSTANT: f64 = 0.6e-4;
 /// Of what stands in a cell, as many letters are shown.
 const SHOWN: usize = 30;
 
-/// A CSV file in memory.
+/// A table of a record.
 pub(super) struct Table {
     part: Part,
-    header: StringRecord,
-    /// Whole lines with their numbers.
-    lines: Vec<(usize, StringRecord)>,
-    /// What ends them, if it is not the end of the file.
-    broken: Option<(usize, Damage)>,
-    /// The number of the line after the last one.
-    after: usize,
+    content: BrokenTable,
 }
 
 impl Table {
-    /// Splits a text into cells, up to a line without its end or with more or fewer cells than the
-    /// first one.
     pub(super) fn new(part: Part, text: &str) -> Self {
-        let whole = text.rfind('\n').map_or("", |end| &text[..=end]);
-        let mut table = Self {
+        Self {
             part,
-            header: StringRecord::new(),
-            lines: Vec::new(),
-            broken: None,
-            after: whole.matches('\n').count() + 1,
-        };
-        let reader = ReaderBuilder::new()
-            .has_headers(false)
-            .flexible(true)
-            .quoting(false)
-            .from_reader(whole.as_bytes());
-        for (index, record) in reader.into_records().enumerate() {
-            // Texts without quotes have no errors.
-            let Ok(record) = record else { break };
-            if index == 0 {
-                table.header = record;
-                continue;
-            }
-            #[expect(
-                clippy::cast_possible_truncation,
-                reason = "a number of lines in memory"
-            )]
-            let line = record
-                .position()
-                .map_or(index + 1, |position| position.line() as usize);
-            let (found, expected) = (record.len(), table.header.len());
-            if found != expected {
-                table.broken = Some((line, Damage::Cells { found, expected }));
-                return table;
-            }
-            table.lines.push((line, record));
+            content: BrokenTable::new(text),
         }
-        if whole.len() < text.len() {
-            table.broken = Some((table.after, Damage::Unfinished));
-        }
-        table
     }
 
     /// The names of the columns.
     pub(super) fn header(&self) -> impl Iterator<Item = &str> {
-        self.header.iter()
+        self.content.header().iter()
     }
 
     /// Where some columns are.
@@ -89,13 +48,17 @@ impl Table {
         Ok(places)
     }
 
-    /// Where a column is.
+    /// Where a column is that must be there.
     pub(super) fn column(&self, folder: &Path, name: &str) -> Result<usize, ReadError> {
-        let place = self.header().position(|column| column == name);
-        place.ok_or_else(|| ReadError::Column {
+        self.find(name).ok_or_else(|| ReadError::Column {
             file: folder.join(self.part.file()).display().to_string(),
             column: name.to_owned(),
         })
+    }
+
+    /// Where a column is, if it is there.
+    pub(super) fn find(&self, name: &str) -> Option<usize> {
+        self.content.column(name)
     }
 
     /// Hands over line by line, up to the first in which `take` finds damage.
@@ -103,19 +66,23 @@ impl Table {
         &self,
         mut take: impl FnMut(Cells<'_>) -> Result<(), Damage>,
     ) -> Option<Cut> {
-        for (line, cells) in &self.lines {
-            let header = &self.header;
+        let header = self.content.header();
+        for (line, cells) in self.content.lines() {
             if let Err(damage) = take(Cells { header, cells }) {
                 return Some(self.cut(*line, damage));
             }
         }
-        let (line, damage) = self.broken.clone()?;
+        let (line, broken) = self.content.broken()?;
+        let damage = match broken {
+            Break::Unfinished => Damage::Unfinished,
+            Break::Cells { found, expected } => Damage::Cells { found, expected },
+        };
         Some(self.cut(line, damage))
     }
 
     /// Damage in the line after the last one.
-    pub(super) fn cut_at_end(&self, damage: Damage) -> Cut {
-        self.cut(self.after, damage)
+    pub(super) const fn cut_at_end(&self, damage: Damage) -> Cut {
+        self.cut(self.content.after(), damage)
     }
 
     const fn cut(&self, line: usize, damage: Damage) -> Cut {
@@ -153,6 +120,12 @@ impl Cells<'_> {
         }
     }
 
+    /// A number that may not have been recorded; NaN where there is no column or the cell is empty.
+    pub(super) fn recorded(&self, column: Option<usize>) -> Result<f64, Damage> {
+        let number = column.map_or(Ok(None), |column| self.optional(column))?;
+        Ok(number.unwrap_or(f64::NAN))
+    }
+
     /// Numbers that must be there.
     pub(super) fn numbers<const N: usize>(&self, columns: [usize; N]) -> Result<[f64; N], Damage> {
         let mut numbers = [0.0; N];
@@ -162,7 +135,7 @@ impl Cells<'_> {
         Ok(numbers)
     }
 
-    /// As many as fit into 16 bits, more than which nothing of a robot has.
+    /// A count; at most 65,535.
     pub(super) fn count(&self, column: usize) -> Result<usize, Damage> {
         let count: Option<u16> = self.text(column).parse().ok();
         count.map(usize::from).ok_or_else(|| self.wrong(column))

@@ -17,7 +17,7 @@ fn of_contacts(text: &str) -> Recorded {
 fn a_record_that_says_no_version_is_of_an_unknown_one() {
     let version = |run: &str| {
         let home = folder(&[(RUN_FILE, Some(run))]);
-        RecordedRun::read(home.path()).unwrap().robot.version_name()
+        RecordInfo::read(home.path()).unwrap().robot.version_name()
     };
     assert_eq!(version(&run_json()), "unknown");
     let said =
@@ -44,7 +44,7 @@ fn a_record_is_read_in_si() {
         record.stages,
         [(0, "pull".to_owned()), (2, "recovery".to_owned())]
     );
-    assert!((record.rows[1].ground_from_root.origin().x() - 0.2).abs() < 1e-12);
+    assert!((record.rows[1].ground_from_root.unwrap().origin().x() - 0.2).abs() < 1e-12);
     assert_eq!(record.contacts[1].with, "plate 1");
     let (height, length) = record.plate.unwrap();
     assert!((height - 0.2).abs() < 1e-12 && (length - 1.5).abs() < 1e-12);
@@ -65,7 +65,7 @@ fn a_record_is_read_in_si() {
     );
     // The arm's origin is 0.2 m ahead of the trunk's, whatever its angle; a quarter turn about z
     // takes its x axis to the trunk's y axis.
-    let arm = record.ground_from_bodies(&record.rows[1])[1];
+    let arm = record.ground_from_bodies(&record.rows[1])[1].unwrap();
     assert!((arm.origin().x() - 0.4).abs() < 1e-12);
     assert!((arm.rotate(glam::DVec3::X) - glam::DVec3::Y).length() < 1e-6);
 }
@@ -101,10 +101,6 @@ fn rows_end_where_they_are_damaged() {
         (
             with("2.0,0.7", "nan,0.7"),
             "A_rad is \"nan\", which is no value of a record",
-        ),
-        (
-            with("2.0,0.7", "2.0,"),
-            "A_nm is \"\", which is no value of a record",
         ),
         // Also in a column that is only shown.
         (
@@ -244,57 +240,154 @@ fn what_is_no_record_is_refused_with_a_reason() {
         said(&[(RUN_FILE, Some(&inside))]),
         said(&[(RUN_FILE, Some(&run(version, "9.9.9")))]),
         said(&[(RUN_FILE, Some(&run("\"record\"", "\"length\"")))]),
+        said(&[(RUN_FILE, Some(&run("\"format\": 2", "\"format\": 3")))]),
         said(&[(RUN_FILE, Some(&run("0.02", "0.0")))]),
+        said(&[(RUN_FILE, Some(&run("[\"contacts\"]", "[]")))]),
         said(&[(MODEL_FILE, None)]),
         said(&[(
             MODEL_FILE,
             Some(&MODEL.replace("\"parent\": 0", "\"parent\": 1")),
         )]),
         said(&[(MODEL_FILE, Some(&MODEL.replace("[0, 0, 1]", "[0, 0, 2]")))]),
-        said(&[(MODEL_FILE, Some(&MODEL.replace("\"A\"", "\"B\"")))]),
         said(&[(ROWS_FILE, None)]),
         said(&[(ROWS_FILE, Some(&header))]),
         said(&[(ROWS_FILE, Some(&ROWS.replace("toe_n", "foot_n")))]),
+        said(&[(RUN_FILE, Some(&run("[\"A_nm\"]", "[]")))]),
         said(&[(CONTACTS_FILE, Some(""))]),
     ];
     let expected = [
-        "RUN is not a recorded run: it has no run.json",
+        "RUN is not a result folder of prone: it holds no run.json",
         "RUN/run.json: EOF while parsing an object at line 1 column 1",
-        "RUN is not a recorded run: its run.json does not say that prone wrote it",
+        "RUN is not a result folder of prone: its run.json does not say that prone wrote it",
         "RUN is not a recorded run, but a result of `prone optimize`; `prone crawl run --record` makes one",
-        "RUN is not a recorded run, but a result of another command; `prone crawl run --record` makes one",
+        "RUN is not a result folder of prone: its run.json names no command",
         "RUN is not a recorded run, but a result of `prone reproduce`; recorded runs in it: RUN/pulls/a",
         &format!(
-            "RUN was recorded by prone 9.9.9, this is prone {version}, which reads its own records only: record it anew"
+            "RUN/run.json was written by prone 9.9.9, this is prone {version}, which reads its own results only: make it anew"
         ),
         &format!(
-            "RUN was recorded by an earlier build of prone {version}, which did not say how many rows there are: record it anew"
+            "RUN/run.json: the record has format 1, written by prone {version} of commit c; this build of prone reads format 2: record it anew"
+        ),
+        &format!(
+            "RUN/run.json: the record has format 3, written by prone {version} of commit c; this build of prone reads format 2: record it anew"
         ),
         "RUN/run.json: row_step_s 0 is outside 0..10 s",
+        "RUN/run.json: record.channels lists contacts.csv without the column contacts of rows.csv",
         "RUN is not a recorded run: it has no model.json",
         "RUN/model.json: body arm does not follow its parent",
         "RUN/model.json: the axis of A has not the length 1",
-        "RUN/model.json: rows.csv has no joint B",
         "RUN is not a recorded run: it has no rows.csv",
         "RUN has no whole row: rows.csv, line 2: the table ends after 0 of 3 rows",
         "RUN/rows.csv has no column toe_n",
+        "RUN/rows.csv: record.channels of run.json does not list the column A_nm",
         "RUN/contacts.csv has no column body",
     ];
     assert_eq!(cases, expected);
     let nowhere = Recorded::read(Path::new("/no/such/run")).unwrap_err();
     assert_eq!(
         nowhere.to_string(),
-        "/no/such/run is not a recorded run: there is no such folder"
+        "/no/such/run is not a result folder of prone: there is no such folder"
     );
 }
 
 #[test]
 fn what_needs_no_table_is_read_without() {
     let home = folder(&[(ROWS_FILE, None), (CONTACTS_FILE, None), (MODEL_FILE, None)]);
-    let run = RecordedRun::read(home.path()).unwrap();
-    assert_eq!((run.command, run.record.rows), (Command::Crawl, 3));
-    assert_eq!(run.said("/options/steering").unwrap(), "none");
-    assert_eq!(run.said("/options/scene_text"), None);
+    let run = RecordInfo::read(home.path()).unwrap();
+    assert_eq!((run.head.command, run.record.rows), (Command::Crawl, 3));
+    let crawl = run.options.crawl().unwrap();
+    assert_eq!(crawl.steering.as_deref(), Some("none"));
+    assert_eq!(run.options.scene_text(), None);
+}
+
+/// The head and the extent of a record as the release before wrote them.
+#[test]
+fn a_record_of_the_release_before_is_refused_by_name_and_format() {
+    let version = env!("CARGO_PKG_VERSION");
+    let old = format!(
+        r#"{{"program": "prone", "version": "{version}", "commit": "d813b9b", "command": "crawl run",
+        "engine": "MuJoCo 3.17.0", "robot": {{"name": "NAO", "folder": "robots/nao", "sha256": "s"}},
+        "gait": {{"name": "g", "description": "d", "file": "g.toml", "mapping": "m", "arm": "a", "text": ""}},
+        "scene": {{"name": "level", "obstacles": 0, "friction_left": 0.7, "friction_right": 0.7,
+        "slope_deg": 0.0, "rough": false}}, "regime": {{"name": "locomotion"}},
+        "options": {{"time_scale": 1.0, "scene_text": null, "steering": "none"}},
+        "record": {{"rows": 3, "row_step_s": 0.02}}}}"#
+    );
+    let home = folder(&[(RUN_FILE, Some(&old))]);
+    let said = Recorded::read(home.path()).unwrap_err().to_string();
+    assert_eq!(
+        without_place(&said, home.path()),
+        format!(
+            "RUN/run.json: the record has format 1, written by prone {version} of commit d813b9b; \
+             this build of prone reads format 2: record it anew"
+        )
+    );
+}
+
+/// As a robot may leave it: no commands, no root, no forces, no contacts, torques with gaps, and
+/// rows when they came.
+#[test]
+fn what_was_not_recorded_is_nan_and_no_damage() {
+    let channels = r#"[
+        {"table": "rows.csv", "columns": ["A_rad"], "is": "instant", "unit": "rad"},
+        {"table": "rows.csv", "columns": ["A_nm"], "is": "instant", "unit": "N·m"}]"#;
+    let run = run_json()
+        .replace(sample::CHANNELS, channels)
+        .replace("\"row_step_s\": 0.02", "\"row_step_s\": null");
+    let rows = "time_s,A_rad,A_nm\n0.01,0.1,1.5\n0.03,0.2,\n0.08,0.3,1.0\n";
+    let changes = |rows: &'static str| {
+        let home = folder(&[
+            (RUN_FILE, Some(&run)),
+            (ROWS_FILE, Some(rows)),
+            (CONTACTS_FILE, None),
+        ]);
+        Recorded::read(home.path())
+    };
+    let record = changes(rows).unwrap();
+    assert_eq!(
+        (record.joints.as_slice(), record.rows.len()),
+        (&["A".to_owned()][..], 3)
+    );
+    assert_eq!(record.cuts, []);
+    assert_eq!((record.stages.len(), record.contact_counts.len()), (0, 0));
+    assert_eq!(
+        record.unrecorded(),
+        [
+            "the pose of the root was not recorded",
+            "the command of the joints was not recorded",
+            "the torque of A is missing in 1 of 3 instants",
+            "the ground's force on every part was not recorded",
+            "contacts were not recorded",
+        ]
+    );
+    let row = &record.rows[1];
+    assert!(row.actuator_torque_nm[0].is_nan() && row.command.as_slice()[0].is_nan());
+    assert!(row.ground_n.iter().all(|force| force.is_nan()));
+    assert_eq!((row.ground_from_root, row.cycle), (None, 1));
+    assert!(record.has_all_angles());
+    assert_eq!(record.ground_from_bodies(row), [None, None]);
+    assert!(record.parent_from_bodies(row)[1].is_some());
+    // (0.3 - 0.1) rad over 0.07 s.
+    assert!((record.joint_speeds()[1][0] - 0.2 / 0.07).abs() < 1e-12);
+    // Rows that are lost are still known, and so are rows in disorder.
+    let cut = |rows| changes(rows).unwrap().cuts[0].to_string();
+    assert_eq!(
+        cut("time_s,A_rad,A_nm\n0.01,0.1,1.5\n0.03,0.2,\n"),
+        "rows.csv, line 4: the table ends after 2 of 3 rows"
+    );
+    assert_eq!(
+        cut("time_s,A_rad,A_nm\n0.01,0.1,1.5\n0.01,0.2,\n0.08,0.3,1.0\n"),
+        "rows.csv, line 3: 0.01 s, which does not follow 0.01 s of the row before"
+    );
+}
+
+/// A hinge of the model that no column is of.
+#[test]
+fn a_joint_without_columns_is_said() {
+    let record = read(&[(MODEL_FILE, Some(&MODEL.replace("\"A\"", "\"B\"")))]).unwrap();
+    assert_eq!(record.joints, ["A", "B"]);
+    assert!(!record.has_all_angles());
+    assert_eq!(record.unrecorded()[0], "the angle of B was not recorded");
 }
 
 /// A message with the folder's own name in it.

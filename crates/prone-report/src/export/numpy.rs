@@ -25,7 +25,8 @@ pub enum ArchiveError {
     Write(#[from] std::io::Error),
 }
 
-/// Makes the archive. Arrays over instants begin with their axis.
+/// Makes the archive. Arrays over instants begin with their axis; a number that was not recorded is
+/// NaN.
 ///
 /// # Errors
 /// [`ArchiveError`], which writing to memory does not produce.
@@ -37,7 +38,15 @@ pub fn of(record: &Recorded) -> Result<Vec<u8>, ArchiveError> {
         numbers(&[rows.len(), joints], values)
     };
     let speeds = record.joint_speeds().into_iter().flatten();
-    let root = |row: &RecordedRow| row.ground_from_root;
+    // What was not recorded is NaN.
+    let position = |row: &RecordedRow| match &row.ground_from_root {
+        Some(root) => root.origin().metres().to_array(),
+        None => [f64::NAN; 3],
+    };
+    let turn = |row: &RecordedRow| match row.ground_from_root.map(|root| root.rotation()) {
+        Some(q) => [q.w, q.x, q.y, q.z],
+        None => [f64::NAN; 4],
+    };
     let arrays = [
         (
             "time_s",
@@ -54,20 +63,11 @@ pub fn of(record: &Recorded) -> Result<Vec<u8>, ArchiveError> {
         ("effort_nm", per_joint(&|row| &row.actuator_torque_nm)),
         (
             "root_position_m",
-            numbers(
-                &[rows.len(), 3],
-                rows.iter()
-                    .flat_map(|row| root(row).origin().metres().to_array()),
-            ),
+            numbers(&[rows.len(), 3], rows.iter().flat_map(position)),
         ),
         (
             "root_quaternion_wxyz",
-            numbers(
-                &[rows.len(), 4],
-                rows.iter()
-                    .map(|row| root(row).rotation())
-                    .flat_map(|q| [q.w, q.x, q.y, q.z]),
-            ),
+            numbers(&[rows.len(), 4], rows.iter().flat_map(turn)),
         ),
         (
             "ground_groups",

@@ -11,7 +11,12 @@
 //!
 //! The wrench is the sum over the points in which the body touches that thing at that instant, its
 //! moment taken about the origin of the body's frame, both in that frame: what a sensor there would
-//! measure. It is zero while they do not touch; where `contacts.csv` breaks off, it ends. Times count from the beginning of the first pull.
+//! measure. It is zero while they do not touch; where `contacts.csv` breaks off, it ends. Times count
+//! from the beginning of the first pull.
+//!
+//! A field of `JointState` that was never recorded is empty, a joint of it that was not is NaN; a topic
+//! of which nothing was recorded is left out, and so are a transform and a wrench of a body whose pose
+//! is not known.
 
 mod cdr;
 
@@ -84,8 +89,12 @@ pub fn of(record: &Recorded) -> Result<Vec<u8>, McapError> {
     ];
     let tf = log.schema("tf2_msgs/msg/TFMessage", &tf)?;
     let states = log.channel(joint_state, "/joint_states")?;
-    let commands = log.channel(joint_state, "/joint_commands")?;
-    let poses = log.channel(tf, "/tf")?;
+    let known = Known::of(record);
+    let commands = known
+        .commands
+        .then(|| log.channel(joint_state, "/joint_commands"))
+        .transpose()?;
+    let poses = known.poses.then(|| log.channel(tf, "/tf")).transpose()?;
     let mut pairs: BTreeMap<Pair<'_>, u16> = BTreeMap::new();
     for contact in &record.contacts {
         let pair = (contact.body, contact.with.as_str());
@@ -98,11 +107,19 @@ pub fn of(record: &Recorded) -> Result<Vec<u8>, McapError> {
     let mut counts = record.contact_counts.iter();
     for (row, speeds) in record.rows.iter().zip(&speeds) {
         let stamp = Stamp::of(row.time_s);
-        let angles = [row.angles.as_slice(), speeds, &row.actuator_torque_nm];
-        log.write(states, stamp, &joints(record, stamp, angles))?;
-        let command = [row.command.as_slice(), &[], &[]];
-        log.write(commands, stamp, &joints(record, stamp, command))?;
-        log.write(poses, stamp, &transforms(record, row, stamp))?;
+        let state = [
+            shown(known.angles, row.angles.as_slice()),
+            shown(known.angles, speeds),
+            shown(known.torques, &row.actuator_torque_nm),
+        ];
+        log.write(states, stamp, &joints(record, stamp, state))?;
+        if let Some(commands) = commands {
+            let command = [row.command.as_slice(), &[], &[]];
+            log.write(commands, stamp, &joints(record, stamp, command))?;
+        }
+        if let Some(poses) = poses {
+            log.write(poses, stamp, &transforms(record, row, stamp))?;
+        }
         // What is not known is not zero: then there is no message.
         let Some(&count) = counts.next() else {
             continue;
@@ -112,7 +129,9 @@ pub fn of(record: &Recorded) -> Result<Vec<u8>, McapError> {
         let mut sums: BTreeMap<Pair<'_>, Wrench> = BTreeMap::new();
         let bodies = record.ground_from_bodies(row);
         for contact in now {
-            let ground_from_body = bodies[contact.body];
+            let Some(ground_from_body) = bodies[contact.body] else {
+                continue;
+            };
             let body_from_ground = ground_from_body.rotation().inverse();
             let arm = contact.at.metres() - ground_from_body.origin().metres();
             let sum = sums.entry((contact.body, &contact.with)).or_default();
@@ -120,6 +139,9 @@ pub fn of(record: &Recorded) -> Result<Vec<u8>, McapError> {
             sum.1 += body_from_ground * arm.cross(contact.force_n);
         }
         for (pair, &channel) in &pairs {
+            if bodies[pair.0].is_none() {
+                continue;
+            }
             let (force, moment) = sums.get(pair).copied().unwrap_or_default();
             let mut message = Cdr::new();
             header(&mut message, stamp, &record.bodies[pair.0].name);
@@ -130,6 +152,35 @@ pub fn of(record: &Recorded) -> Result<Vec<u8>, McapError> {
     }
     log.writer.finish()?;
     Ok(log.writer.into_inner().into_inner())
+}
+
+/// Which channels a record has, at any instant and of any joint.
+struct Known {
+    commands: bool,
+    angles: bool,
+    torques: bool,
+    poses: bool,
+}
+
+impl Known {
+    fn of(record: &Recorded) -> Self {
+        let rows = &record.rows;
+        let any = |values: fn(&RecordedRow) -> &[f64]| {
+            let mut values = rows.iter().flat_map(values);
+            values.any(|value| !value.is_nan())
+        };
+        let mut poses = rows.iter().flat_map(|row| record.parent_from_bodies(row));
+        Self {
+            commands: any(|row| row.command.as_slice()),
+            angles: any(|row| row.angles.as_slice()),
+            torques: any(|row| &row.actuator_torque_nm),
+            poses: poses.any(|pose| pose.is_some()),
+        }
+    }
+}
+
+const fn shown(known: bool, values: &[f64]) -> &[f64] {
+    if known { values } else { &[] }
 }
 
 /// Letters, digits and underscores between slashes, as ROS wants it.
@@ -168,11 +219,16 @@ fn joints(record: &Recorded, stamp: Stamp, values: [&[f64]; 3]) -> Vec<u8> {
     message.finish()
 }
 
-/// A `TFMessage` of all bodies.
+/// A `TFMessage` of all bodies whose poses are known.
 fn transforms(record: &Recorded, row: &RecordedRow, stamp: Stamp) -> Vec<u8> {
     let mut message = Cdr::new();
-    message.count(record.bodies.len());
-    for (body, pose) in record.bodies.iter().zip(record.parent_from_bodies(row)) {
+    let poses = record.parent_from_bodies(row);
+    let known = record.bodies.iter().zip(poses);
+    let known: Vec<_> = known
+        .filter_map(|(body, pose)| Some((body, pose?)))
+        .collect();
+    message.count(known.len());
+    for (body, pose) in known {
         let parent = body
             .parent
             .map_or(WORLD, |parent| &record.bodies[parent].name);
@@ -230,7 +286,10 @@ impl Log {
     fn say_what(&mut self, record: &Recorded) -> Result<(), McapError> {
         let run = &record.run;
         let metadata = [
-            ("program", format!("prone {} ({})", run.version, run.commit)),
+            (
+                "program",
+                format!("prone {} ({})", run.head.version, run.head.commit),
+            ),
             ("robot", run.robot.name.clone()),
             ("robot version", run.robot.version_name()),
             ("gait", run.gait.name.clone()),

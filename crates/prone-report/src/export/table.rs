@@ -13,7 +13,8 @@ const COLUMNS: [&str; 6] = [
     "effort_nm",
 ];
 
-/// Makes the table: instants in their order, in each the joints in the robot's order.
+/// Makes the table: instants in their order, in each the joints in the robot's order;
+/// the cell of what was not recorded is empty.
 ///
 /// # Errors
 /// [`csv::Error`], which writing to memory does not produce.
@@ -26,12 +27,21 @@ pub fn of(record: &Recorded) -> Result<Vec<u8>, csv::Error> {
             table.write_record([
                 &time,
                 joint,
-                &number(row.command.as_slice()[index], 6),
-                &number(row.angles.as_slice()[index], 6),
-                &number(speeds[index], 4),
-                &number(row.actuator_torque_nm[index], 5),
+                &recorded(row.command.as_slice()[index], 6),
+                &recorded(row.angles.as_slice()[index], 6),
+                &recorded(speeds[index], 4),
+                &recorded(row.actuator_torque_nm[index], 5),
             ])?;
         }
     }
     finish(table)
+}
+
+/// A number with fixed decimals; nothing where it was not recorded.
+fn recorded(value: f64, decimals: usize) -> String {
+    if value.is_nan() {
+        String::new()
+    } else {
+        number(value, decimals)
+    }
 }

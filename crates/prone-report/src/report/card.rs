@@ -90,27 +90,26 @@ pub struct JointCard {
 }
 
 impl Card {
-    pub(super) fn of(crawl: &CrawlRun) -> Self {
-        let summary = &crawl.summary;
-        let standing = crawl.standing_height_mm;
+    /// Of a crawl that left figures.
+    pub(super) fn from_crawl(crawl: &CrawlRun) -> Option<Self> {
+        let summary = crawl.summary.as_ref()?;
+        let standing = crawl.info.robot.standing_height_mm;
+        let options = crawl.info.options.crawl();
         let (highest_part, highest_mm) = summary.top_mm.highest_part();
         let metres = Some(summary.path_mm / 1e3).filter(|metres| *metres > 0.0);
         let straight = summary.yaw_deg.abs() < STRAIGHT_DEG;
         let (joints, other_joints_heat_share) = joints(&summary.joints, summary.heat_s);
-        let number = |pointer: &str| {
-            let found = crawl.folder.run.pointer(pointer);
-            found.and_then(serde_json::Value::as_f64)
-        };
-        Self {
+        Some(Self {
             run: crawl.folder.name.clone(),
             gait: summary.gait.clone(),
             robot: summary.robot.clone(),
             scene: summary.scene.clone(),
-            steering: crawl
-                .folder
-                .said("/options/steering")
-                .unwrap_or_else(|| "not said".to_owned()),
-            joint_offset_deg: number("/options/joint_offset_deg").unwrap_or(0.0),
+            steering: options
+                .and_then(|options| options.steering.clone())
+                .unwrap_or_else(|| "unknown".to_owned()),
+            joint_offset_deg: options
+                .and_then(|options| options.joint_offset_deg)
+                .unwrap_or(0.0),
             cycles: summary.cycles,
             path_mm: summary.path_mm,
             time_s: summary.time_s,
@@ -133,7 +132,7 @@ impl Card {
             yaw_deg_per_m: metres.map(|metres| summary.yaw_deg / metres),
             joints,
             other_joints_heat_share,
-        }
+        })
     }
 }
 

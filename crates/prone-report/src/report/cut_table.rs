@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use prone_record::broken_table::BrokenTable;
+
 use super::ReportError;
 
 /// Where a table can be used no further.
@@ -27,21 +29,19 @@ pub enum Damage {
     Missing,
 }
 
-/// A table as text, up to its first incomplete line.
+/// A table up to its first incomplete line.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CutTable {
     path: PathBuf,
     /// How the file is called in the report.
     name: String,
-    header: Vec<String>,
-    /// Line in the file, from 1, and cells.
-    lines: Vec<(usize, Vec<String>)>,
+    content: BrokenTable,
     cut: Option<(usize, Damage)>,
 }
 
 /// A line, read by the names of its columns.
 pub struct Line<'a> {
-    cells: &'a [String],
+    cells: &'a csv::StringRecord,
 }
 
 /// A cell that is neither empty nor a number.
@@ -55,41 +55,12 @@ pub struct Column(usize);
 impl CutTable {
     /// Splits a text into lines and cells.
     pub fn read(path: PathBuf, name: String, text: &str) -> Self {
-        let whole = text.ends_with('\n');
-        let count = text.lines().count();
-        let mut reader = csv::ReaderBuilder::new()
-            .flexible(true)
-            .has_headers(false)
-            .from_reader(text.as_bytes());
-        let mut header = Vec::new();
-        let mut lines: Vec<(usize, Vec<String>)> = Vec::new();
-        let mut cut = None;
-        for record in reader.records() {
-            let Ok(record) = record else {
-                cut = Some((lines.last().map_or(1, |(line, _)| line + 1), Damage::Line));
-                break;
-            };
-            let line = record.position().map_or(1, csv::Position::line);
-            #[expect(clippy::cast_possible_truncation, reason = "lines of a file in memory")]
-            let line = line as usize;
-            let cells: Vec<String> = record.iter().map(str::to_owned).collect();
-            // The last cell of a line without an end may lack digits.
-            if line == count && !whole || (!header.is_empty() && cells.len() != header.len()) {
-                cut = Some((line, Damage::Line));
-                break;
-            }
-            if header.is_empty() {
-                header = cells;
-            } else {
-                lines.push((line, cells));
-            }
-        }
+        let content = BrokenTable::new(text);
         Self {
             path,
             name,
-            header,
-            lines,
-            cut,
+            cut: content.broken().map(|(line, _)| (line, Damage::Line)),
+            content,
         }
     }
 
@@ -98,11 +69,13 @@ impl CutTable {
     /// # Errors
     /// [`ReportError::Column`].
     pub fn column(&self, column: &str) -> Result<Column, ReportError> {
-        let place = self.header.iter().position(|known| known == column);
-        place.map(Column).ok_or_else(|| ReportError::Column {
-            file: self.path.clone(),
-            column: column.to_owned(),
-        })
+        self.content
+            .column(column)
+            .map(Column)
+            .ok_or_else(|| ReportError::Column {
+                file: self.path.clone(),
+                column: column.to_owned(),
+            })
     }
 
     /// Where some columns are.
@@ -120,7 +93,7 @@ impl CutTable {
     /// Every line that `read` takes, up to the first that it does not; the table ends there.
     pub fn rows<T>(&mut self, mut read: impl FnMut(&Line<'_>) -> Option<T>) -> Vec<T> {
         let mut rows = Vec::new();
-        for (line, cells) in &self.lines {
+        for (line, cells) in self.content.lines() {
             let Some(row) = read(&Line { cells }) else {
                 self.cut = Some((*line, Damage::Line));
                 break;
@@ -133,7 +106,7 @@ impl CutTable {
     /// Says that the table is not whole although every line is, because something is missing.
     pub fn end_early(&mut self) {
         if self.cut.is_none() {
-            let line = self.lines.last().map_or(2, |(line, _)| line + 1);
+            let line = self.content.lines().last().map_or(2, |(line, _)| line + 1);
             self.cut = Some((line, Damage::Missing));
         }
     }

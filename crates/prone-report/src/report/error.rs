@@ -4,32 +4,15 @@ use std::io;
 use std::path::PathBuf;
 
 use crate::figures::FigureError;
+use prone_record::head::HeadError;
 use prone_record::recorded::ReadError;
 
 /// Why there is no report.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
-    /// There is no result.
-    #[error("{} is not a result folder of prone: {reason}", folder.display())]
-    NotAResult {
-        /// The folder.
-        folder: PathBuf,
-        /// By what that is known.
-        reason: String,
-    },
-    /// A result of another version of this program.
-    #[error(
-        "{} was written by prone {found}, this is prone {ours}, which reads its own results only: make it anew",
-        folder.display()
-    )]
-    OtherVersion {
-        /// The folder.
-        folder: PathBuf,
-        /// What wrote it.
-        found: String,
-        /// What reads it.
-        ours: &'static str,
-    },
+    /// There is no result of this version of the program.
+    #[error(transparent)]
+    Head(#[from] HeadError),
     /// A result that a report has no place for.
     #[error("{} holds a result of `prone {found}`, of which a report shows nothing", folder.display())]
     OtherCommand {

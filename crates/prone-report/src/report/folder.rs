@@ -3,13 +3,13 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::ReportError;
 use super::cut_table::CutTable;
 use prone_record::figure_entry::{FIGURES_FILE, FigureEntry};
+use prone_record::head::Head;
 use prone_record::output::RUN_FILE;
 
 /// How a folder came to be read.
@@ -29,67 +29,20 @@ pub struct Folder {
     /// Where it is.
     pub path: PathBuf,
     pub(super) given: Given,
-    /// What made it, without the program's name.
-    pub command: String,
-    /// From which the program was built that made it.
-    pub commit: String,
-    /// The engine of that program, where it says.
-    pub engine: Option<String>,
+    /// What made it.
+    pub head: Head,
     /// All of `run.json`.
     pub run: Value,
 }
 
-#[derive(Deserialize)]
-struct Head {
-    program: String,
-    version: String,
-    commit: String,
-    command: Option<String>,
-    engine: Option<String>,
-}
-
 impl Folder {
     pub(super) fn open(name: &str, path: &Path, given: Given) -> Result<Self, ReportError> {
-        let not_a_result = |reason: &str| ReportError::NotAResult {
-            folder: path.to_owned(),
-            reason: reason.to_owned(),
-        };
-        if !path.exists() {
-            return Err(not_a_result("there is no such folder"));
-        }
-        if !path.is_dir() {
-            return Err(not_a_result("it is not a folder"));
-        }
-        let file = path.join(RUN_FILE);
-        if !file.exists() {
-            return Err(not_a_result(&format!("it holds no {RUN_FILE}")));
-        }
-        let run: Value = serde_json::from_str(&text(&file)?)
-            .map_err(|source| ReportError::Json { file, source })?;
-        let head = Head::deserialize(&run)
-            .ok()
-            .filter(|head| head.program == "prone")
-            .ok_or_else(|| {
-                not_a_result(&format!("its {RUN_FILE} does not say that prone wrote it"))
-            })?;
-        let ours = env!("CARGO_PKG_VERSION");
-        if head.version != ours {
-            return Err(ReportError::OtherVersion {
-                folder: path.to_owned(),
-                found: head.version,
-                ours,
-            });
-        }
-        let command = head
-            .command
-            .ok_or_else(|| not_a_result(&format!("its {RUN_FILE} names no command")))?;
+        let (head, run) = Head::read(path)?;
         Ok(Self {
             name: name.to_owned(),
             path: path.to_owned(),
             given,
-            command,
-            commit: head.commit,
-            engine: head.engine,
+            head,
             run,
         })
     }

@@ -96,6 +96,7 @@ impl Page<'_> {
     fn above(&self) -> Markup {
         html! {
             (self.shortfalls())
+            (self.unrecorded())
             @for run in self.published() { (run.results()) }
             (card_sections::all(self.cards))
         }
@@ -130,7 +131,7 @@ impl Page<'_> {
         let folders = self.runs.iter().map(Run::folder);
         let named = folders.filter(|folder| folder.given == Given::Named);
         named
-            .map(|folder| format!("{} ({})", folder.name, folder.command))
+            .map(|folder| format!("{} ({})", folder.name, folder.head.command))
             .collect()
     }
 
@@ -140,6 +141,18 @@ impl Page<'_> {
             @if !sentences.is_empty() {
                 section.warning {
                     h2 { "Records that are not whole" }
+                    ul { @for sentence in &sentences { li { (sentence) } } }
+                }
+            }
+        }
+    }
+
+    fn unrecorded(&self) -> Markup {
+        let sentences: Vec<&String> = self.runs.iter().flat_map(Run::unrecorded).collect();
+        html! {
+            @if !sentences.is_empty() {
+                section {
+                    h2 { "What was not recorded" }
                     ul { @for sentence in &sentences { li { (sentence) } } }
                 }
             }
@@ -258,7 +271,10 @@ impl Page<'_> {
     fn robots(&self) -> Vec<String> {
         let mut robots = Vec::new();
         for run in self.runs {
-            let robot = run.folder().said("/robot/name");
+            let robot = match run.record() {
+                Some(record) => Some(record.robot.name.clone()),
+                None => run.folder().said("/robot/name"),
+            };
             robots.extend(robot.filter(|robot| !robots.contains(robot)));
         }
         robots

@@ -1,6 +1,10 @@
 //! What searches found, and under which conditions each run was made.
 
+use std::collections::BTreeMap;
+
 use maud::{Markup, html};
+use prone_record::origin::Origin;
+use prone_record::record_info::RecordInfo;
 
 use super::Run;
 use super::drawn_run::{CycleResult, FoundCycle};
@@ -121,12 +125,14 @@ pub(super) fn what_was_run(runs: &[Run]) -> Markup {
                 @let folder = run.folder();
                 h3 { (folder.name) }
                 dl {
-                    dt { "command" } dd { "prone " (folder.command) ", built from commit " (folder.commit) }
-                    @if let Some(engine) = &folder.engine { dt { "engine" } dd { (engine) } }
+                    dt { "command" } dd { "prone " (folder.head.command) ", built from commit " (folder.head.commit) }
+                    @if let Some(engine) = &folder.head.engine { dt { "engine" } dd { (engine) } }
                     @match run {
                         Run::Published(_, run) => { (run.facts()) }
-                        Run::Crawl(_) | Run::Pull(_) | Run::Search(_) | Run::Drawn(_) => {
-                            @for (label, pointer) in FACTS {
+                        Run::Crawl(run) => { (facts(&run.info)) }
+                        Run::Pull(run) => { (facts(&run.info)) }
+                        Run::Search(_) | Run::Drawn(_) => {
+                            @for (label, pointer) in SEARCH_FACTS {
                                 @if let Some(value) = folder.said(pointer) {
                                     dt { (label) } dd { (value) }
                                 }
@@ -139,24 +145,90 @@ pub(super) fn what_was_run(runs: &[Run]) -> Markup {
     }
 }
 
-/// Words and numbers of a `run.json` that are worth reading, with where they are.
-const FACTS: [(&str, &str); 24] = [
-    ("gait", "/gait/name"),
-    ("about it", "/gait/description"),
-    ("its file", "/gait/file"),
-    ("mapping", "/gait/mapping"),
-    ("arms", "/gait/arm"),
-    ("scene", "/scene/name"),
-    ("friction, left", "/scene/friction_left"),
-    ("friction, right", "/scene/friction_right"),
-    ("slope, °", "/scene/slope_deg"),
-    ("contact regime", "/regime/name"),
-    ("torque limit", "/regime/effort_limit"),
-    ("time step, s", "/regime/time_step_s"),
-    ("steering", "/options/steering"),
-    ("joints off by up to, °", "/options/joint_offset_deg"),
-    ("time scale", "/options/time_scale"),
-    ("seed of joint errors", "/options/seed"),
+/// What a record says of itself; what it does not say is `unknown`.
+fn facts(info: &RecordInfo) -> Markup {
+    html! {
+        @for (label, value) in record_facts(info) {
+            dt { (label) } dd { (value) }
+        }
+    }
+}
+
+/// The conditions of a record that are worth reading, with their labels.
+fn record_facts(info: &RecordInfo) -> Vec<(&'static str, String)> {
+    let unknown = || "unknown".to_owned();
+    let word = |word: &Option<String>| word.clone().unwrap_or_else(unknown);
+    let figure = |number: Option<f64>| number.map_or_else(unknown, |number| format!("{number:?}"));
+    let RecordInfo {
+        robot, gait, scene, ..
+    } = info;
+    let mut facts = vec![
+        ("gait", gait.name.clone()),
+        ("about it", word(&gait.description)),
+        ("its file", word(&gait.file)),
+        ("mapping", word(&gait.mapping)),
+        ("arms", word(&gait.arm)),
+        ("scene", scene.name.clone()),
+        ("friction, left", figure(scene.friction_left)),
+        ("friction, right", figure(scene.friction_right)),
+        ("slope, °", figure(scene.slope_deg)),
+    ];
+    facts.extend(origin_facts(&info.origin));
+    if let Some(options) = info.options.crawl() {
+        facts.extend([
+            ("steering", word(&options.steering)),
+            ("joints off by up to, °", figure(options.joint_offset_deg)),
+        ]);
+    }
+    facts.push(("time scale", figure(info.options.time_scale())));
+    let seed = info.options.crawl().and_then(|options| options.seed);
+    facts.extend(seed.map(|seed| ("seed of joint errors", seed.to_string())));
+    facts.push(("robot", robot.name.clone()));
+    let family = [
+        ("its family", &robot.family),
+        ("its version", &robot.version),
+    ];
+    let family = family.into_iter();
+    facts.extend(family.filter_map(|(label, name)| Some((label, name.clone()?))));
+    facts.push(("its files, SHA-256", robot.sha256.clone()));
+    facts
+}
+
+fn origin_facts(origin: &Origin) -> Vec<(&'static str, String)> {
+    let list = |entries: &BTreeMap<String, String>| {
+        let entries = entries
+            .iter()
+            .map(|(name, value)| format!("{name} {value}"));
+        entries.collect::<Vec<_>>().join(", ")
+    };
+    match origin {
+        Origin::Simulated(simulated) => vec![
+            ("contact regime", simulated.regime.name.clone()),
+            ("torque limit", simulated.regime.effort_limit.clone()),
+            (
+                "time step, s",
+                format!("{:?}", simulated.regime.time_step_s),
+            ),
+            (
+                "integrator, solver, cone",
+                format!(
+                    "{}, {}, {}",
+                    simulated.integrator, simulated.solver, simulated.cone
+                ),
+            ),
+        ],
+        Origin::Robot(robot) => vec![
+            ("recorded on the robot", robot.host.clone()),
+            ("its software", list(&robot.versions)),
+            ("settings", list(&robot.settings)),
+        ],
+        Origin::Imported(imported) => vec![("imported from", imported.from.clone())],
+    }
+}
+
+/// Words and numbers of the `run.json` of a search or a map that are worth reading, with where they
+/// are.
+const SEARCH_FACTS: [(&str, &str); 8] = [
     ("robot", "/robot/name"),
     ("its family", "/robot/family"),
     ("its version", "/robot/version"),

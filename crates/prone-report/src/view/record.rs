@@ -7,7 +7,9 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::pack::{self, Packed};
-use prone_record::recorded::{Part, ReadError, Recorded, RecordedContact, RecordedRun};
+use prone_record::origin::Origin;
+use prone_record::record_info::{Options, RecordInfo};
+use prone_record::recorded::{Part, ReadError, Recorded, RecordedContact};
 
 /// Columns that grow with a run, and are kept to seven digits.
 const EXACT: [&str; 4] = ["time_s", "x_mm", "y_mm", "z_mm"];
@@ -19,6 +21,9 @@ pub struct Run {
     /// Name and value.
     facts: Vec<(&'static str, String)>,
     notes: Vec<String>,
+    /// How many of the notes, from the first on, are of tables that break off.
+    #[serde(skip)]
+    cuts: usize,
     model: Value,
     rows: usize,
     /// From which row on, by name.
@@ -42,9 +47,14 @@ impl Run {
         &self.title
     }
 
-    /// What of the record is missing, one sentence each.
-    pub fn notes(&self) -> &[String] {
-        &self.notes
+    /// What of the record is missing because a table breaks off, one sentence each.
+    pub fn shortfalls(&self) -> &[String] {
+        &self.notes[..self.cuts]
+    }
+
+    /// What was never recorded, and what that means for the replay, one sentence each.
+    pub fn gaps(&self) -> &[String] {
+        &self.notes[self.cuts..]
     }
 
     /// How many instants there are.
@@ -69,6 +79,7 @@ pub fn read(folder: &Path) -> Result<Run, ReadError> {
 /// Packs a record.
 pub fn of(record: &Recorded) -> Run {
     let mut model = record.model.clone();
+    strip_inertia(&mut model);
     shorten(&mut model);
     let channels = record.columns.iter().map(|(name, values)| {
         let packed = if EXACT.contains(&name.as_str()) {
@@ -78,26 +89,39 @@ pub fn of(record: &Recorded) -> Run {
         };
         (name.clone(), packed)
     });
+    let mut channels: BTreeMap<String, Packed> = channels.collect();
+    if record.rows.iter().all(|row| row.ground_from_root.is_none()) {
+        for place in ["x_mm", "y_mm", "z_mm"] {
+            let at_origin = || pack::floats(&vec![0.0; record.rows.len()]);
+            channels.entry(place.to_owned()).or_insert_with(at_origin);
+        }
+    }
     let run = &record.run;
+    let mut notes = record.shortfalls(&[Part::Rows, Part::Contacts]);
+    let cuts = notes.len();
+    notes.extend(gaps(record));
     Run {
         title: format!("{} · {}", run.gait.name, run.scene.name),
         facts: facts(run),
-        notes: record.shortfalls(&[Part::Rows, Part::Contacts]),
+        notes,
+        cuts,
         model,
         rows: record.rows.len(),
         stages: record.stages.clone(),
-        channels: channels.collect(),
+        channels,
         contacts: contacts(record),
     }
 }
 
 /// What *About* says; what a record does not say is left out.
-fn facts(run: &RecordedRun) -> Vec<(&'static str, String)> {
-    let friction = |regime: String| match run.said("/regime/friction") {
-        Some(friction) => format!("{regime}, friction {friction}"),
-        None => regime,
+fn facts(run: &RecordInfo) -> Vec<(&'static str, String)> {
+    let gait = run.gait.description.as_deref();
+    let regime = run.origin.regime();
+    let (steering, pull_s) = match &run.options {
+        Options::Crawl(crawl) => (crawl.steering.clone(), None),
+        Options::Pull(pull) => (None, Some(pull.duration_s)),
     };
-    let gait = run.said("/gait/description");
+    let head = &run.head;
     let facts = [
         (
             "gait",
@@ -112,32 +136,64 @@ fn facts(run: &RecordedRun) -> Vec<(&'static str, String)> {
                 .then(|| run.robot.version_name()),
         ),
         ("scene", Some(run.scene.name.clone())),
-        ("regime", run.said("/regime/name").map(friction)),
-        ("steering", run.said("/options/steering")),
         (
-            "pull",
-            run.said("/options/duration_s")
-                .map(|text| format!("{text} s")),
+            "regime",
+            regime.map(|regime| format!("{}, friction {:?}", regime.name, regime.friction)),
         ),
-        ("engine", run.said("/engine")),
+        ("steering", steering),
+        ("pull", pull_s.map(|seconds| format!("{seconds:?} s"))),
+        ("engine", head.engine.clone()),
+        ("recorded on", recorded_on(&run.origin)),
         (
             "recorded by",
             Some(format!(
                 "prone {}, commit {}, {}",
-                run.version,
-                run.commit,
-                run.command.name()
+                head.version,
+                head.commit,
+                head.command.name()
             )),
         ),
         (
             "time step",
-            run.said("/regime/time_step_s")
-                .map(|text| format!("{text} s")),
+            regime.map(|regime| format!("{:?} s", regime.time_step_s)),
         ),
     ];
     let said = facts.into_iter();
     said.filter_map(|(name, value)| Some((name, value?)))
         .collect()
+}
+
+/// Where a record comes from that was not simulated.
+fn recorded_on(origin: &Origin) -> Option<String> {
+    match origin {
+        Origin::Simulated(_) => None,
+        Origin::Robot(robot) => Some(format!("the robot {}", robot.host)),
+        Origin::Imported(imported) => Some(format!("imported from {}", imported.from)),
+    }
+}
+
+/// What a replay cannot show of a record, one sentence each.
+fn gaps(record: &Recorded) -> Vec<String> {
+    let mut gaps = record.unrecorded();
+    if record.rows.iter().all(|row| row.ground_from_root.is_none()) {
+        gaps.push("the replay leaves the robot's root where it is, at the origin".to_owned());
+    }
+    if !record.has_all_angles() {
+        gaps.push(
+            "joints without an angle cannot be replayed: the page draws them at zero".to_owned(),
+        );
+    }
+    gaps
+}
+
+/// A replay turns nothing by torques.
+fn strip_inertia(model: &mut Value) {
+    let bodies = model.get_mut("bodies").and_then(Value::as_array_mut);
+    for body in bodies.into_iter().flatten() {
+        if let Some(body) = body.as_object_mut() {
+            body.remove("inertia");
+        }
+    }
 }
 
 /// Micrometres are enough for the eye.

@@ -1,4 +1,5 @@
-//! What a replay needs to draw robot and scene: `model.json`.
+//! What a replay needs to draw robot and scene, and a robot's URDF its bodies and shapes:
+//! `model.json`.
 
 use glam::{DQuat, DVec3};
 use serde_json::{Value, json};
@@ -21,7 +22,7 @@ pub(super) fn of(world: &World) -> Value {
         },
         "robot": robot.name,
         "mass_kg": robot.mass(),
-        "bodies": robot.bodies.iter().map(|body| {
+        "bodies": robot.bodies.iter().zip(world.inertia_views()).map(|(body, inertia)| {
             let pose = &body.parent_from_body;
             json!({
                 "name": body.name,
@@ -38,6 +39,10 @@ pub(super) fn of(world: &World) -> Value {
                     })
                 }),
                 "mass": body.mass,
+                "inertia": {
+                    "principal": inertia.principal.to_array(),
+                    "quaternion": real_first(inertia.rotation),
+                },
                 "centre_of_mass": body.centre_of_mass.metres().to_array(),
                 "contact_group": body.contact_group.name(),
                 "head": body.is_head,

@@ -1,7 +1,5 @@
 //! The record of one pull in the form of a crawl's, so that it can be replayed and exported.
 
-use serde::Serialize;
-
 use prone::gait::Gait;
 use prone::regime::CONTROL_STEP;
 use prone::steering::Bearing;
@@ -10,11 +8,12 @@ use prone_sim::{LoadedRobot, World};
 
 use super::instants;
 use super::record::{RecordError, shown};
-use super::run::{RecordInfo, Subject};
+use super::run::{Subject, record_info};
 use prone_record::crawl_tables::Instant;
 use prone_record::output::Artefacts;
 use prone_record::program::Program;
-use prone_record::recorded::{Command, Extent};
+use prone_record::record_info::{Options, PullOptions};
+use prone_record::recorded::Command;
 
 /// A pull of the published study.
 pub struct PullRecording<'a> {
@@ -32,16 +31,7 @@ pub struct PullRecording<'a> {
     pub pull: &'a Pull,
 }
 
-/// What was asked for. The first two are those of a crawl.
-#[derive(Debug, Clone, Serialize)]
-struct Options<'a> {
-    time_scale: f64,
-    scene_text: Option<&'a str>,
-    duration_s: f64,
-    start_posture: &'a str,
-}
-
-/// Makes `run.json`, `model.json`, `rows.csv` and `contacts.csv`.
+/// Makes `run.json`, `model.json`, `rows.csv`, `contacts.csv` and `robot.compiled.json`.
 ///
 /// # Errors
 /// [`RecordError`].
@@ -54,11 +44,11 @@ pub fn files(recording: &PullRecording<'_>, program: &Program) -> Result<Artefac
         duration_s,
         pull,
     } = *recording;
-    let options = Options {
-        time_scale: 1.0,
+    let options = PullOptions {
+        time_scale: Some(1.0),
         scene_text: None,
         duration_s,
-        start_posture: &world.robot().study.start_posture,
+        start_posture: Some(world.robot().study.start_posture.clone()),
     };
     let instants: Vec<Instant<'_>> = pull.rows.iter().filter_map(instants::of_pull).collect();
     let subject = Subject {
@@ -66,12 +56,16 @@ pub fn files(recording: &PullRecording<'_>, program: &Program) -> Result<Artefac
         gait,
         file,
         command_step_s: CONTROL_STEP,
-        extent: Extent {
-            rows: instants.len(),
-            row_step_s: CONTROL_STEP,
-        },
-        options: &options,
+        rows: instants.len(),
+        row_step_s: CONTROL_STEP,
+        options: Options::Pull(options),
     };
-    let info = RecordInfo::of(robot, world, &subject, program);
-    shown(world, &info, Bearing::of_prone(&pull.start), &instants)
+    let info = record_info(robot, world, subject, program);
+    shown(
+        robot,
+        world,
+        &info,
+        Bearing::of_prone(&pull.start),
+        &instants,
+    )
 }

@@ -3,18 +3,19 @@
 use prone::steering::Bearing;
 use prone_sim::crawl::{Crawl, ROW_STEP};
 use prone_sim::{LoadedRobot, World};
-use serde::Serialize;
 
 use super::instants;
-use super::run::{Conditions, GaitSource, RecordInfo, Subject};
+use super::run::{Conditions, GaitSource, Subject, record_info};
 use super::{angles, frames, model};
 use crate::frames::FramesError;
+use prone_files::compiled_robot::{CompiledRobot, Violation};
 use prone_record::crawl_summary::CrawlSummary;
 use prone_record::crawl_tables as tables;
 use prone_record::crawl_tables::Instant;
 use prone_record::output::{Artefacts, RUN_FILE, json};
 use prone_record::program::Program;
-use prone_record::recorded::{CONTACTS_FILE, Command, Extent, MODEL_FILE, ROWS_FILE};
+use prone_record::record_info::RecordInfo;
+use prone_record::recorded::{CONTACTS_FILE, Command, MODEL_FILE, ROBOT_FILE, ROWS_FILE};
 use prone_report::figure_list::FigureList;
 use prone_report::figures::{self, FigureError, PNG_SCALE};
 
@@ -33,6 +34,9 @@ pub enum RecordError {
     /// A JSON file cannot be written.
     #[error("JSON: {0}")]
     Json(#[from] serde_json::Error),
+    /// The compiled robot cannot be written.
+    #[error("compiled robot: {0}")]
+    Robot(#[from] Violation),
 }
 
 /// Everything that was simulated, and under which conditions.
@@ -105,19 +109,17 @@ pub fn numbers(
         gait: &gait.cycle.pull,
         file: (&gait.file, &gait.text),
         command_step_s: world.robot().control.command_step,
-        extent: Extent {
-            rows: crawl.rows.len(),
-            row_step_s: ROW_STEP,
-        },
-        options: conditions,
+        rows: crawl.rows.len(),
+        row_step_s: ROW_STEP,
+        options: conditions.recorded(),
     };
     let start = crawl
         .cycles
         .first()
         .map_or_else(Default::default, |cycle| cycle.from);
-    let info = RecordInfo::of(robot, world, &subject, program);
+    let info = record_info(robot, world, subject, program);
     let instants: Vec<Instant<'_>> = crawl.rows.iter().map(instants::of_crawl).collect();
-    let mut artefacts = shown(world, &info, start, &instants)?;
+    let mut artefacts = shown(robot, world, &info, start, &instants)?;
     artefacts.insert("summary.json".into(), json(summary)?);
     artefacts.insert("cycles.csv".into(), tables::cycles(summary)?);
     artefacts.insert(
@@ -129,8 +131,9 @@ pub fn numbers(
 
 /// The files that replay and exports need.
 pub(super) fn shown(
+    robot: &LoadedRobot,
     world: &World,
-    info: &impl Serialize,
+    info: &RecordInfo,
     start: Bearing,
     instants: &[Instant<'_>],
 ) -> Result<Artefacts, RecordError> {
@@ -141,5 +144,7 @@ pub(super) fn shown(
     artefacts.insert(ROWS_FILE.into(), rows);
     let contacts = tables::contacts(world.robot(), world.obstacles(), instants)?;
     artefacts.insert(CONTACTS_FILE.into(), contacts);
+    let compiled = CompiledRobot::new(robot.robot(), robot.files(), prone_sim::engine_version())?;
+    artefacts.insert(ROBOT_FILE.into(), compiled.text().into_bytes());
     Ok(artefacts)
 }

@@ -1,15 +1,17 @@
 //! Under which conditions a crawl or a pull was simulated: `run.json`.
 
-use serde::Serialize;
-
 use prone::gait::Gait;
 use prone::gait::cycle::Cycle;
 use prone::regime::{Effort, SOLIMP, SOLREF, Servo, Stops};
 use prone::robot::{JointAngles, Robot};
 use prone_sim::{LoadedRobot, World};
 
+use prone_record::crawl_tables;
+use prone_record::head::Head;
+use prone_record::origin::{Origin, RegimeInfo, Simulated};
 use prone_record::program::{Program, RobotInfo};
-use prone_record::recorded::{Command, Extent};
+use prone_record::record_info::{CrawlOptions, Extent, GaitInfo, Options, RecordInfo, SceneInfo};
+use prone_record::recorded::Command;
 
 /// A crawl that ends past the obstacles of its scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,7 +32,7 @@ pub struct GaitSource {
 }
 
 /// What was asked for, beside robot, gait and scene.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Conditions {
     /// After how many cycles it was to end, or at most.
     pub most_cycles: usize,
@@ -46,7 +48,7 @@ pub struct Conditions {
     pub heading_deg: Option<f64>,
     /// Largest calibration error of a joint, degrees.
     pub joint_offset_deg: f64,
-    /// Of those errors.
+    /// Seed of those errors.
     pub seed: Option<u64>,
     /// The errors themselves, rad, by joint; those of the other joints are zero.
     pub joint_offsets_rad: Vec<(String, f64)>,
@@ -66,130 +68,131 @@ impl Conditions {
         let named = joints.map(|(joint, &offset)| (joint.name.clone(), offset));
         named.filter(|(_, offset)| *offset != 0.0).collect()
     }
+
+    /// The same as a record says it.
+    pub(super) fn recorded(&self) -> Options {
+        Options::Crawl(CrawlOptions {
+            most_cycles: Some(self.most_cycles),
+            until_past_mm: self.until_past_mm,
+            time_scale: Some(self.time_scale),
+            steering: Some(self.steering.to_owned()),
+            turn_command_deg: Some(self.turn_command_deg),
+            heading_deg: self.heading_deg,
+            joint_offset_deg: Some(self.joint_offset_deg),
+            seed: self.seed,
+            joint_offsets_rad: self.joint_offsets_rad.clone(),
+            scene_text: self.scene_text.clone(),
+            uphill: self.uphill.clone(),
+        })
+    }
 }
 
 /// What tells one record from another: which command made it, of what, how long.
-pub(super) struct Subject<'a, O> {
+pub(super) struct Subject<'a> {
     pub(super) command: Command,
     pub(super) gait: &'a Gait,
     /// The gait's file, as the user named it, and its text.
     pub(super) file: (&'a str, &'a str),
     /// Time between two commands, s.
     pub(super) command_step_s: f64,
-    pub(super) extent: Extent,
-    pub(super) options: &'a O,
+    pub(super) rows: usize,
+    /// Time between two rows, s.
+    pub(super) row_step_s: f64,
+    pub(super) options: Options,
 }
 
-#[derive(Debug, Clone, Serialize)]
-pub(super) struct RecordInfo<'a, O> {
-    program: &'static str,
-    #[serde(flatten)]
-    built: Program,
-    command: Command,
-    engine: String,
-    robot: RobotInfo,
-    gait: GaitInfo<'a>,
-    scene: SceneInfo<'a>,
-    regime: RegimeInfo,
-    options: &'a O,
-    record: Extent,
+/// `run.json` of what was simulated in a world.
+pub(super) fn record_info(
+    robot: &LoadedRobot,
+    world: &World,
+    subject: Subject<'_>,
+    program: &Program,
+) -> RecordInfo {
+    let (gait, (file, text)) = (subject.gait, subject.file);
+    let engine = prone_sim::engine_version();
+    RecordInfo {
+        head: Head::new(program, subject.command, Some(engine.clone())),
+        robot: RobotInfo::of(robot.robot(), robot.files()),
+        gait: GaitInfo {
+            name: gait.name.clone(),
+            description: Some(gait.description.clone()),
+            file: Some(file.to_owned()),
+            mapping: Some(gait.mapping.name().to_owned()),
+            arm: Some(gait.arm.name().to_owned()),
+            text: Some(text.to_owned()),
+        },
+        scene: scene_info(world),
+        origin: Origin::Simulated(Box::new(simulated(world, subject.command_step_s, engine))),
+        options: subject.options,
+        record: Extent::new(
+            subject.rows,
+            Some(subject.row_step_s),
+            crawl_tables::channels(world.robot()),
+        ),
+    }
 }
 
-#[derive(Debug, Clone, Serialize)]
-struct GaitInfo<'a> {
-    name: &'a str,
-    description: &'a str,
-    file: &'a str,
-    mapping: &'static str,
-    arm: &'static str,
-    text: &'a str,
+fn scene_info(world: &World) -> SceneInfo {
+    let (regime, scene) = (world.regime(), world.scene());
+    let sides = scene.floor.friction;
+    SceneInfo {
+        name: scene.name.clone(),
+        obstacles: Some(world.obstacles().len()),
+        friction_left: Some(sides.map_or(regime.friction, |sides| sides.left)),
+        friction_right: Some(sides.map_or(regime.friction, |sides| sides.right)),
+        slope_deg: Some(scene.floor.slope.to_degrees()),
+        rough: Some(scene.floor.roughness.is_some()),
+    }
 }
 
-#[derive(Debug, Clone, Serialize)]
-struct SceneInfo<'a> {
-    name: &'a str,
-    obstacles: usize,
-    friction_left: f64,
-    friction_right: f64,
-    slope_deg: f64,
-    rough: bool,
+/// How it was simulated, as the compiled model of the world says.
+fn simulated(world: &World, command_step_s: f64, engine: String) -> Simulated {
+    let options = world.engine_options();
+    let servos = || {
+        let names = world.robot().joints.iter().map(|joint| joint.name.clone());
+        names.zip(&options.servos)
+    };
+    Simulated {
+        engine,
+        regime: regime_info(world, command_step_s),
+        integrator: options.integrator.to_owned(),
+        solver: options.solver.to_owned(),
+        solver_iterations: options.iterations,
+        solver_tolerance: options.tolerance,
+        cone: options.cone.to_owned(),
+        gravity_m_s2: options.gravity.to_array(),
+        servo_gains_nms_rad: servos().map(|(joint, servo)| (joint, servo.gain)).collect(),
+        effort_limits_nm: servos()
+            .map(|(joint, servo)| (joint, servo.limit))
+            .collect(),
+    }
 }
 
-#[derive(Debug, Clone, Serialize)]
-struct RegimeInfo {
-    name: &'static str,
-    friction: f64,
-    impratio: f64,
-    effort_limit: String,
-    stops: &'static str,
-    servo_gain: String,
-    servo_rate_per_s: f64,
-    servo_speed_rad_s: f64,
-    time_step_s: f64,
-    command_step_s: f64,
-    settle_s: f64,
-    solref: [f64; 2],
-    solimp: [f64; 5],
-}
-
-impl<'a, O> RecordInfo<'a, O> {
-    pub(super) fn of(
-        robot: &LoadedRobot,
-        world: &'a World,
-        subject: &Subject<'a, O>,
-        program: &Program,
-    ) -> Self {
-        let (gait, (file, text)) = (subject.gait, subject.file);
-        let (regime, scene) = (world.regime(), world.scene());
-        let sides = scene.floor.friction;
-        Self {
-            program: "prone",
-            built: program.clone(),
-            command: subject.command,
-            engine: prone_sim::engine_version(),
-            robot: RobotInfo::of(robot.robot(), robot.files()),
-            gait: GaitInfo {
-                name: &gait.name,
-                description: &gait.description,
-                file,
-                mapping: gait.mapping.name(),
-                arm: gait.arm.name(),
-                text,
-            },
-            scene: SceneInfo {
-                name: &scene.name,
-                obstacles: world.obstacles().len(),
-                friction_left: sides.map_or(regime.friction, |sides| sides.left),
-                friction_right: sides.map_or(regime.friction, |sides| sides.right),
-                slope_deg: scene.floor.slope.to_degrees(),
-                rough: scene.floor.roughness.is_some(),
-            },
-            regime: RegimeInfo {
-                name: regime.name,
-                friction: regime.friction,
-                impratio: regime.impratio,
-                effort_limit: match regime.effort {
-                    Effort::Published => "the maker's".to_owned(),
-                    Effort::Uniform(limit) => format!("{limit} N·m on every joint"),
-                },
-                stops: match regime.stops {
-                    Stops::Maker => "the maker's",
-                    Stops::Study => "the study's",
-                },
-                servo_gain: match regime.servo {
-                    Servo::Robot => "the robot's".to_owned(),
-                    Servo::Uniform(gain) => format!("{gain} N·m·s/rad on every joint"),
-                },
-                servo_rate_per_s: world.servo_law().rate,
-                servo_speed_rad_s: world.servo_law().speed,
-                time_step_s: regime.time_step,
-                command_step_s: subject.command_step_s,
-                settle_s: prone_sim::pull::SETTLE,
-                solref: SOLREF,
-                solimp: SOLIMP,
-            },
-            options: subject.options,
-            record: subject.extent,
+fn regime_info(world: &World, command_step_s: f64) -> RegimeInfo {
+    let regime = world.regime();
+    RegimeInfo {
+        name: regime.name.to_owned(),
+        friction: regime.friction,
+        impratio: regime.impratio,
+        effort_limit: match regime.effort {
+            Effort::Published => "the maker's".to_owned(),
+            Effort::Uniform(limit) => format!("{limit} N·m on every joint"),
+        },
+        stops: match regime.stops {
+            Stops::Maker => "the maker's",
+            Stops::Study => "the study's",
         }
+        .to_owned(),
+        servo_gain: match regime.servo {
+            Servo::Robot => "the robot's".to_owned(),
+            Servo::Uniform(gain) => format!("{gain} N·m·s/rad on every joint"),
+        },
+        servo_rate_per_s: world.servo_law().rate,
+        servo_speed_rad_s: world.servo_law().speed,
+        time_step_s: regime.time_step,
+        command_step_s,
+        settle_s: prone_sim::pull::SETTLE,
+        solref: SOLREF,
+        solimp: SOLIMP,
     }
 }

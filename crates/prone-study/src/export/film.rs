@@ -6,7 +6,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use prone::frames::Transform;
+use prone::frames::{Ground, Root, Transform};
 use prone_sim::camera::{self, Camera, Picture};
 use prone_sim::{Snapshot, World};
 
@@ -64,6 +64,8 @@ pub struct Film<'a> {
     world: &'a World,
     record: &'a Recorded,
     shot: Shot,
+    /// Pose of the root at each row.
+    roots: Vec<Transform<Ground, Root>>,
     /// What the camera that follows looks at, at each row.
     way: Vec<DVec3>,
 }
@@ -79,6 +81,9 @@ pub enum FilmError {
         /// How many the robot has.
         joints: usize,
     },
+    /// The record does not say where the robot is at every instant.
+    #[error("poses or angles of some instants were not recorded: they cannot be filmed")]
+    Unrecorded,
     /// The model has no camera.
     #[error("{robot} has no camera in its model: there is no view from its eye")]
     NoEye {
@@ -137,11 +142,17 @@ impl<'a> Film<'a> {
                 joints: joints.len(),
             });
         }
+        let roots = record.rows.iter().map(|row| row.ground_from_root);
+        let roots: Option<Vec<Transform<Ground, Root>>> = roots.collect();
+        let roots = roots
+            .filter(|_| record.has_all_angles())
+            .ok_or(FilmError::Unrecorded)?;
         let film = Self {
             world,
             record,
             shot,
-            way: calm_way(record),
+            way: calm_way(record, &roots),
+            roots,
         };
         if shot.view == View::Eye && Camera::eye(&world.at(&film.snapshot(0.0))).is_none() {
             return Err(FilmError::NoEye {
@@ -227,14 +238,15 @@ impl<'a> Film<'a> {
         let after = rows
             .partition_point(|row| row.time_s < time_s)
             .min(rows.len() - 1);
-        let (before, after) = (&rows[after.saturating_sub(1)], &rows[after]);
+        let before = after.saturating_sub(1);
+        let (from, to) = (self.roots[before], self.roots[after]);
+        let (before, after) = (&rows[before], &rows[after]);
         let seconds = after.time_s - before.time_s;
         let share = if seconds > 0.0 {
             ((time_s - before.time_s) / seconds).clamp(0.0, 1.0)
         } else {
             0.0
         };
-        let (from, to) = (before.ground_from_root, after.ground_from_root);
         let root = Transform::new(
             from.rotation().slerp(to.rotation(), share).normalize(),
             from.origin().metres().lerp(to.origin().metres(), share),
@@ -244,11 +256,7 @@ impl<'a> Film<'a> {
 
     /// Sees the whole way from the right.
     fn beside(&self) -> Camera {
-        let roots = self
-            .record
-            .rows
-            .iter()
-            .map(|row| row.ground_from_root.origin().metres());
+        let roots = self.roots.iter().map(|root| root.origin().metres());
         let (low, high) = roots.fold(
             (DVec3::INFINITY, DVec3::NEG_INFINITY),
             |(low, high), root| (low.min(root), high.max(root)),
@@ -294,11 +302,11 @@ impl<'a> Film<'a> {
 
 /// Where the root is at each row, averaged over [`CALM`] before and after it, as far as the record
 /// reaches to both sides.
-fn calm_way(record: &Recorded) -> Vec<DVec3> {
+fn calm_way(record: &Recorded, roots: &[Transform<Ground, Root>]) -> Vec<DVec3> {
     let rows = &record.rows;
     let mut sums = vec![DVec3::ZERO];
-    for row in rows {
-        let sum = sums[sums.len() - 1] + row.ground_from_root.origin().metres();
+    for root in roots {
+        let sum = sums[sums.len() - 1] + root.origin().metres();
         sums.push(sum);
     }
     let (begin, end) = record.span_s();

@@ -9,7 +9,7 @@ fn a_whole_record_is_taken_whole() {
     let folder = folder(&[]);
     let run = read(folder.path()).unwrap();
     assert_eq!((run.title(), run.rows()), ("g · level", 3));
-    assert_eq!(run.notes(), [""; 0]);
+    assert_eq!(run.shortfalls(), [""; 0]);
     assert_eq!(
         run.stages,
         [(0, "pull".to_owned()), (2, "recovery".to_owned())]
@@ -28,7 +28,17 @@ fn a_whole_record_is_taken_whole() {
     );
     // What a record does not say is not among what the page says of it.
     let facts: Vec<&str> = run.facts.iter().map(|(name, _)| *name).collect();
-    assert_eq!(facts, ["gait", "robot", "scene", "steering", "recorded by"]);
+    assert_eq!(
+        facts,
+        [
+            "gait",
+            "robot",
+            "scene",
+            "steering",
+            "recorded on",
+            "recorded by"
+        ]
+    );
 }
 
 #[test]
@@ -37,17 +47,17 @@ fn what_stands_before_a_break_is_shown_and_said() {
     let run = read(cut.path()).unwrap();
     assert_eq!(run.rows(), 2);
     assert_eq!(
-        run.notes(),
+        run.shortfalls(),
         ["rows.csv, line 4: the file ends within the line; 2 of 3 instants are left, up to 0.04 s"]
     );
     assert_eq!(run.contacts.unwrap().counts, pack::counts([1, 2]));
     // Rows without their contacts have none to show.
     let cut = folder(&[("contacts.csv", Some(&CONTACTS[..CONTACTS.len() - 3]))]);
     let run = read(cut.path()).unwrap();
-    assert_eq!((run.rows(), run.notes().len()), (3, 1));
+    assert_eq!((run.rows(), run.shortfalls().len()), (3, 1));
     assert_eq!(run.contacts.unwrap().counts, pack::counts([1, 2, 0]));
     let missing = folder(&[("contacts.csv", None)]);
     let run = read(missing.path()).unwrap();
-    assert_eq!((run.rows(), run.notes().len()), (3, 1));
+    assert_eq!((run.rows(), run.shortfalls().len()), (3, 1));
     assert_eq!(run.contacts, None);
 }

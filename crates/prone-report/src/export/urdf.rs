@@ -10,62 +10,96 @@ use std::fmt::Write as _;
 
 use glam::{DMat3, DQuat, DVec3, EulerRot};
 
-use prone::robot::{Body, BodyId, Robot};
-use prone_sim::{InertiaView, ShapeView, World};
+use prone::robot::{Body, Robot};
+use prone_record::recorded::{Inertia, RecordedModel, RecordedShape};
 
-use prone_report::markup::escaped;
+use crate::markup::escaped;
 
 /// Groups of the engine that are drawn: 0 to 2.
 const DRAWN: std::ops::RangeInclusive<i32> = 0..=2;
 
-/// Writes the robot of a world.
-pub fn of(world: &World) -> String {
-    let robot = world.robot();
-    let (shapes, inertias) = (world.shape_views(), world.inertia_views());
+/// Why a record's robot has no URDF.
+#[derive(Debug, thiserror::Error)]
+pub enum UrdfError {
+    /// The model of the record has other bodies than the compiled robot.
+    #[error("the bodies of the record's model are not those of {robot}")]
+    OtherBodies {
+        /// Name of the compiled robot.
+        robot: String,
+    },
+    /// The model of the record lacks the inertia of a body that has mass.
+    #[error("the record does not say how hard body {body} is to turn")]
+    NoInertia {
+        /// Name of the body.
+        body: String,
+    },
+}
+
+/// Writes the robot of a record.
+///
+/// # Errors
+/// [`UrdfError`].
+pub fn of(robot: &Robot, model: &RecordedModel) -> Result<String, UrdfError> {
+    let names = robot.bodies.iter().map(|body| &body.name);
+    if !names.eq(model.bodies.iter().map(|body| &body.name)) {
+        return Err(UrdfError::OtherBodies {
+            robot: robot.name.clone(),
+        });
+    }
     let mut text = format!(
         "<?xml version=\"1.0\"?>\n<!-- Made by prone {} from its MJCF model. Ellipsoids are written \
          as the boxes around them: URDF has none. -->\n<robot name=\"{}\">\n",
         env!("CARGO_PKG_VERSION"),
         escaped(&robot.name)
     );
-    for (index, (body, inertia)) in robot.bodies.iter().zip(&inertias).enumerate() {
-        let shapes = shapes.iter().filter(|shape| shape.body == BodyId(index));
-        link(&mut text, robot, body, inertia, shapes);
+    for (index, (body, recorded)) in robot.bodies.iter().zip(&model.bodies).enumerate() {
+        let shapes = model.shapes.iter().filter(|shape| shape.body == index);
+        let shift = link_in_body(robot, body);
+        let inertial = match recorded.inertia {
+            _ if body.mass <= 0.0 => String::new(),
+            Some(inertia) => inertial(body, shift, &inertia),
+            None => {
+                return Err(UrdfError::NoInertia {
+                    body: body.name.clone(),
+                });
+            }
+        };
+        link(&mut text, body, shift, &inertial, shapes);
     }
     for body in &robot.bodies {
         joint(&mut text, robot, body);
     }
-    text + "</robot>\n"
+    Ok(text + "</robot>\n")
+}
+
+fn inertial(body: &Body, shift: DVec3, inertia: &Inertia) -> String {
+    let turn = DMat3::from_quat(inertia.rotation);
+    let tensor = turn * DMat3::from_diagonal(inertia.principal) * turn.transpose();
+    let [x, y, z] = tensor.to_cols_array_2d();
+    format!(
+        "    <inertial>{}<mass value=\"{:.6}\"/><inertia ixx=\"{:.9e}\" ixy=\"{:.9e}\" \
+         ixz=\"{:.9e}\" iyy=\"{:.9e}\" iyz=\"{:.9e}\" izz=\"{:.9e}\"/></inertial>\n",
+        origin(body.centre_of_mass.metres() - shift, DQuat::IDENTITY),
+        body.mass,
+        x[0],
+        x[1],
+        x[2],
+        y[1],
+        y[2],
+        z[2]
+    )
 }
 
 fn link<'a>(
     text: &mut String,
-    robot: &Robot,
     body: &Body,
-    inertia: &InertiaView,
-    shapes: impl Iterator<Item = &'a ShapeView>,
+    shift: DVec3,
+    inertial: &str,
+    shapes: impl Iterator<Item = &'a RecordedShape>,
 ) {
-    let shift = link_in_body(robot, body);
     // Writing to a text does not fail.
     let _ = writeln!(text, "  <link name=\"{}\">", escaped(&body.name));
-    if body.mass > 0.0 {
-        let turn = DMat3::from_quat(inertia.rotation);
-        let tensor = turn * DMat3::from_diagonal(inertia.principal) * turn.transpose();
-        let [x, y, z] = tensor.to_cols_array_2d();
-        let _ = writeln!(
-            text,
-            "    <inertial>{}<mass value=\"{:.6}\"/><inertia ixx=\"{:.9e}\" ixy=\"{:.9e}\" \
-             ixz=\"{:.9e}\" iyy=\"{:.9e}\" iyz=\"{:.9e}\" izz=\"{:.9e}\"/></inertial>",
-            origin(body.centre_of_mass.metres() - shift, DQuat::IDENTITY),
-            body.mass,
-            x[0],
-            x[1],
-            x[2],
-            y[1],
-            y[2],
-            z[2]
-        );
-    }
+    *text += inertial;
     for shape in shapes {
         for (place, geometry) in solids(shape) {
             let at = shape.position + shape.rotation * place - shift;
@@ -132,12 +166,12 @@ fn link_in_body(robot: &Robot, body: &Body) -> DVec3 {
 }
 
 /// A shape as URDF's solids, each with its place along the shape's axes.
-fn solids(shape: &ShapeView) -> Vec<(DVec3, String)> {
+fn solids(shape: &RecordedShape) -> Vec<(DVec3, String)> {
     let sphere = |radius: f64| format!("<sphere radius=\"{radius}\"/>");
     let cylinder = |radius: f64, half: f64| {
         format!("<cylinder radius=\"{radius}\" length=\"{}\"/>", 2.0 * half)
     };
-    match (shape.kind, shape.size.as_slice()) {
+    match (shape.kind.as_str(), shape.size.as_slice()) {
         ("sphere", &[radius]) => vec![(DVec3::ZERO, sphere(radius))],
         ("cylinder", &[radius, half]) => vec![(DVec3::ZERO, cylinder(radius, half))],
         ("capsule", &[radius, half]) => vec![

@@ -1,0 +1,144 @@
+//! What the compiled model of a world says about how it is simulated.
+
+use glam::DVec3;
+use mujoco_rs::prelude::*;
+
+use crate::world::World;
+
+/// Options of the engine, as the compiled model holds them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EngineOptions {
+    /// Name of the integrator in the engine's model files.
+    pub integrator: &'static str,
+    /// Name of the solver of constraints.
+    pub solver: &'static str,
+    /// Form of the friction cone.
+    pub cone: &'static str,
+    /// Most iterations of the solver per step.
+    pub iterations: usize,
+    /// Improvement of the cost, scaled, below which the solver ends.
+    pub tolerance: f64,
+    /// Length of a step, s.
+    pub time_step: f64,
+    /// Ratio of frictional to normal constraint impedance.
+    pub impratio: f64,
+    /// Acceleration of gravity in the ground frame, m/s².
+    pub gravity: DVec3,
+    /// The servo of each of the robot's joints, in their order.
+    pub servos: Vec<EngineServo>,
+}
+
+/// A velocity servo of the compiled model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EngineServo {
+    /// Velocity gain, N·m·s/rad.
+    pub gain: f64,
+    /// Torque limit, N·m.
+    pub limit: f64,
+}
+
+impl World {
+    /// How the compiled model is simulated.
+    pub fn engine_options(&self) -> EngineOptions {
+        let options = self.model.opt();
+        let gains = self.model.actuator_gainprm().iter();
+        let limits = self.model.actuator_forcerange().iter();
+        let servos = gains.zip(limits).map(|(gain, &[_, limit])| EngineServo {
+            gain: gain[0],
+            limit,
+        });
+        EngineOptions {
+            integrator: integrator(options.integrator),
+            solver: solver(options.solver),
+            cone: cone(options.cone),
+            iterations: usize::try_from(options.iterations).unwrap_or(0),
+            tolerance: options.tolerance,
+            time_step: options.timestep,
+            impratio: options.impratio,
+            gravity: DVec3::from_array(options.gravity),
+            servos: servos.collect(),
+        }
+    }
+}
+
+fn integrator(number: i32) -> &'static str {
+    const EULER: i32 = MjtIntegrator::mjINT_EULER as i32;
+    const RK4: i32 = MjtIntegrator::mjINT_RK4 as i32;
+    const IMPLICIT: i32 = MjtIntegrator::mjINT_IMPLICIT as i32;
+    const IMPLICIT_FAST: i32 = MjtIntegrator::mjINT_IMPLICITFAST as i32;
+    match number {
+        EULER => "Euler",
+        RK4 => "RK4",
+        IMPLICIT => "implicit",
+        IMPLICIT_FAST => "implicitfast",
+        _ => "unknown",
+    }
+}
+
+fn solver(number: i32) -> &'static str {
+    const PGS: i32 = MjtSolver::mjSOL_PGS as i32;
+    const CG: i32 = MjtSolver::mjSOL_CG as i32;
+    const NEWTON: i32 = MjtSolver::mjSOL_NEWTON as i32;
+    match number {
+        PGS => "PGS",
+        CG => "CG",
+        NEWTON => "Newton",
+        _ => "unknown",
+    }
+}
+
+fn cone(number: i32) -> &'static str {
+    const PYRAMIDAL: i32 = MjtCone::mjCONE_PYRAMIDAL as i32;
+    const ELLIPTIC: i32 = MjtCone::mjCONE_ELLIPTIC as i32;
+    match number {
+        PYRAMIDAL => "pyramidal",
+        ELLIPTIC => "elliptic",
+        _ => "unknown",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use prone::regime::Regime;
+    use prone::scene::Scene;
+    use prone::statics::GRAVITY;
+    use prone_files::shipped;
+
+    use super::*;
+    use crate::{LoadedRobot, RobotFiles};
+
+    /// What the model says is what the regime, the robot and the scene asked for.
+    #[test]
+    fn identity_the_compiled_options_are_those_that_were_asked_for() {
+        let robot = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
+        let slope = 0.1_f64;
+        let mut scene = Scene::level();
+        scene.floor.slope = slope;
+        let regime = Regime::LOCOMOTION.with_time_step(0.001);
+        let world = World::in_scene(&robot, regime, &scene).unwrap();
+        let options = world.engine_options();
+        assert_eq!(
+            (options.integrator, options.solver, options.cone),
+            ("implicitfast", "Newton", "elliptic")
+        );
+        assert!((options.time_step - 0.001).abs() < 1e-15);
+        assert!((options.impratio - regime.impratio).abs() < 1e-15);
+        // Uphill is +x, so gravity pulls towards -x.
+        let down = DVec3::new(-slope.sin(), 0.0, -slope.cos()) * GRAVITY;
+        assert!((options.gravity - down).length() < 1e-12);
+        let joints = &world.robot().joints;
+        assert_eq!(options.servos.len(), joints.len());
+        for (servo, joint) in options.servos.iter().zip(joints) {
+            assert!(
+                (servo.gain - joint.servo_gain).abs() < 1e-12,
+                "{}",
+                joint.name
+            );
+            assert!(
+                (servo.limit - joint.effort_limit).abs() < 1e-12,
+                "{}",
+                joint.name
+            );
+        }
+    }
+}
