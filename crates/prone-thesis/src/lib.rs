@@ -7,9 +7,11 @@
 
 pub mod agreement;
 pub mod chapter;
+mod prose;
 pub mod published;
 mod report;
 pub mod reproduce;
+pub mod robot_numbers;
 mod run_info;
 pub mod summary;
 pub mod table_crawl;

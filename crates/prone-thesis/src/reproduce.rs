@@ -4,10 +4,13 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
+use prone::gait::{PhaseDuration, PhaseDurationError};
+
 use prone::regime::Regime;
 use prone_sim::{LoadedRobot, World, WorldError};
 
 use crate::chapter::Thesis;
+use crate::robot_numbers::{NumbersError, RobotNumbers};
 use crate::run_info::RunInfo;
 use crate::summary::{self, Summary};
 use crate::table_crawl::{self, TableError, TableResult, TableStudy};
@@ -48,6 +51,12 @@ pub enum ReproduceError {
     /// The crawl under the table has no result.
     #[error(transparent)]
     Table(#[from] TableError),
+    /// The robot has no numbers for the report.
+    #[error(transparent)]
+    Numbers(#[from] NumbersError),
+    /// The showcase duration is none.
+    #[error(transparent)]
+    Duration(#[from] PhaseDurationError),
     /// The frames of the simulated robot cannot be made.
     #[error(transparent)]
     Frames(#[from] FramesError),
@@ -113,7 +122,12 @@ pub fn run(
     let experiments = table_result
         .as_ref()
         .map_or_else(Vec::new, |result| result.experiments.clone());
-    let summary = summary::of(&study, agreement, stories, experiments);
+    let showcase = PhaseDuration::new(study.showcase_s)?;
+    let numbers = RobotNumbers::new(world.robot(), plan.gaits(), showcase)?;
+    let summary = Summary {
+        robot: Some(numbers),
+        ..summary::of(&study, agreement, stories, experiments)
+    };
     let info = RunInfo::of(robot, &world, plan, table.map(TableStudy::info), program);
 
     let mut artefacts = Artefacts::new();

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::agreement::Agreement;
 use crate::published;
+use crate::robot_numbers::RobotNumbers;
 use crate::table_crawl::TableExperiment;
 use crate::torque_study::TorqueStudy;
 use prone_record::contact_story::ContactStory;
@@ -34,6 +35,8 @@ pub struct Summary {
     pub mappings: Vec<MappingRow>,
     /// The experiments under the table, where the robot can do them.
     pub table: Vec<TableExperiment>,
+    /// Numbers of the robot that the report's sentences have.
+    pub robot: Option<RobotNumbers>,
 }
 
 /// A cost beside the published one.
@@ -118,6 +121,7 @@ pub fn of(
         contacts,
         mappings: mappings(study),
         table,
+        robot: None,
     }
 }
 

@@ -2,6 +2,7 @@
 
 use maud::{Markup, html};
 
+use crate::prose::{Numbers, Prose};
 use crate::published;
 use crate::run_info::RunInfo;
 use crate::summary::{CostRow, Summary};
@@ -73,15 +74,12 @@ pub(crate) fn results(summary: &Summary) -> Markup {
     }
 }
 
-pub(crate) fn contacts(summary: &Summary) -> Markup {
+pub(crate) fn contacts(summary: &Summary, numbers: &Numbers) -> Markup {
     html! {
         section {
             h2 { "Which part carries the body when" }
             p {
-                "Joint centres of the planned chain come down to 14 mm above the floor, while the \
-                 belly reaches 48 mm below its centre line and the pelvis 30 mm: the real body cannot \
-                 leave the floor where the chain says, and first lies on its belly, legs in the air. Shares are of \
-                 the ground's normal force, ours, means over tenths of the phase."
+                (numbers.fill(&Prose::shipped().contacts))
             }
             @for story in &summary.contacts { (contact_table(story)) }
         }
@@ -300,14 +298,14 @@ pub(crate) fn table_crawl(summary: &Summary) -> Markup {
     }
 }
 
-pub(crate) fn clamps(summary: &Summary) -> Markup {
+pub(crate) fn clamps(summary: &Summary, numbers: &Numbers, family: Option<&str>) -> Markup {
+    let prose = Prose::shipped();
     html! {
         section {
             h2 { "Joints at their limits" }
             p {
-                "The published gaits ask joints for more than their limits, and say to stop there. \
-                 A flat forearm at an upper arm of −90° needs an elbow roll of 90°, which the robot \
-                 does not have; the 60° ankle offset of the original asks for more ankle than there is."
+                (prose.clamps)
+                @if let Some(robot) = prose.of_robot(family) { " " (numbers.fill(&robot.clamps)) }
             }
             div.scroll { table {
                 caption { "Planned gait, sampled every 1 % of the phase; ours." }
@@ -326,15 +324,12 @@ pub(crate) fn clamps(summary: &Summary) -> Markup {
     }
 }
 
-pub(crate) fn mappings(summary: &Summary) -> Markup {
+pub(crate) fn mappings(summary: &Summary, numbers: &Numbers) -> Markup {
     html! {
         section {
             h2 { "What the mapping changes" }
             p {
-                "The study is compared with recordings, so it maps chain angles to joints as they \
-                 did: an ankle offset of 60° and a shoulder roll of 22°. The robot's own geometry \
-                 says 64.2° and, for the same projected upper arm, 24.07°, and puts the shoulder \
-                 3.5 mm nearer to the hip. New gaits use that by default."
+                (numbers.fill(&Prose::shipped().mappings))
             }
             div.scroll { table {
                 caption { "Cost of the same gait under both mappings, ours, N²·m²·s." }
@@ -353,20 +348,13 @@ pub(crate) fn mappings(summary: &Summary) -> Markup {
     }
 }
 
-pub(crate) fn differences() -> Markup {
+/// What is known to differ from the original, of the robot that it had.
+pub(crate) fn differences(numbers: &Numbers, family: Option<&str>) -> Markup {
     html! {
-        section {
-            h2 { "Known differences" }
-            ul {
-                li { "The published upper arm of the optimal gait is printed with the wrong sign at the start (+0.52360); only the negative value reaches −90°." }
-                li { "The published coefficients end 0.06° short of −90°: the optimiser's tolerance was used up. Ours follow the coefficients." }
-                li { "The recording simulator used another engine, a mass of 5.14 kg, and a hip stop of 0.4327 rad, below the 0.480 rad that the gait commands; here the manufacturer's 5.305 kg, and a hip stop moved out of the way." }
-                li { "How hard toes and elbows squeeze the body between them decides every torque and depends on the friction model. The recordings had practically no squeeze, which friction of 0.05 gives; with contacts that stick the curves differ several times more." }
-                li { "The pose of the recorded robot before each pull is unknown; ours is the pose stored in its scene, held for a second. It decides the first fifth of the phase and the cost of short pulls." }
-                li { "Towards the end of the pull the hands take over from the elbows: the hand is thicker than the elbow, and its roll stops short of flat. Our shoulder torque then rises in the last twentieth of the phase; the recorded one does not." }
-                li { "The right ankle's limit is 0.18° tighter than the left's, so that left and right torques differ by up to 0.08 N·m while the chain lifts. Ours, like the recorded ones, are the right side's." }
-                li { "Commands change every 50 ms, so the first row of a pull depends on the engine's step; a step of 1 ms lowers the cost of the 1 s pull by 3 %, and hardly changes those from 3 s on." }
-                li { "About 100 samples per phase are plotted in the original whatever the duration; ours are one per 50 ms, as the torques change." }
+        @if let Some(robot) = Prose::shipped().of_robot(family) {
+            section {
+                h2 { "Known differences" }
+                ul { @for sentence in &robot.differences { li { (numbers.fill(sentence)) } } }
             }
         }
     }

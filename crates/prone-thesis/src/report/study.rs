@@ -3,6 +3,7 @@
 use maud::{Markup, html};
 
 use super::{parameter_tables, sections};
+use crate::prose::Numbers;
 use crate::published;
 use crate::run_info::RunInfo;
 use crate::summary::Summary;
@@ -89,14 +90,16 @@ impl PublishedRun for StudyRun {
     }
 
     fn sections(&self) -> Markup {
+        let numbers = Numbers::new(&self.info, self.summary.robot.as_ref());
+        let family = self.info.robot.family.as_deref();
         html! {
             (sections::costs(&self.summary))
             (sections::agreement(&self.summary))
-            (sections::contacts(&self.summary))
+            (sections::contacts(&self.summary, &numbers))
             (sections::stride(&self.summary))
-            (sections::clamps(&self.summary))
-            (sections::mappings(&self.summary))
-            (sections::differences())
+            (sections::clamps(&self.summary, &numbers, family))
+            (sections::mappings(&self.summary, &numbers))
+            (sections::differences(&numbers, family))
         }
     }
 
