@@ -86,7 +86,14 @@ fn records_are_whole_and_small() {
     let record = Recorded::read(&result().join("pulls/nominal-1s")).unwrap();
     assert_eq!(record.cuts, []);
     assert_eq!(record.run.head.command, Command::ReproducePull);
-    assert!(record.run.gait.text.unwrap().contains("constant_deg = 16.5"));
+    assert!(
+        record
+            .run
+            .gait
+            .text
+            .unwrap()
+            .contains("constant_deg = 16.5")
+    );
     assert_eq!(record.stages, [(0, "pull".to_owned())]);
     // The manufacturer's link masses sum to 5.305 kg. In a pull of a second the body still comes to
     // rest on its limbs: the mean is within a tenth of the weight.
