@@ -15,12 +15,12 @@ use prone_record::crawl_tables;
 const TIMES_S: [f64; 3] = [0.02, 0.04, 0.06];
 
 /// The robot that ships.
-pub fn nao() -> CompiledRobot {
+pub(crate) fn nao() -> CompiledRobot {
     CompiledRobot::shipped(&shipped::NAO).unwrap()
 }
 
 /// Bodies and chain as the engine's model has them; inertias and shapes are invented.
-pub fn model(robot: &Robot) -> Value {
+fn model(robot: &Robot) -> Value {
     let bodies = robot.bodies.iter().map(|body| {
         let pose = &body.parent_from_body;
         let turn = pose.rotation();
@@ -73,7 +73,7 @@ pub fn model(robot: &Robot) -> Value {
 }
 
 /// `run.json` with an origin and what the tables hold.
-pub fn run(robot: &CompiledRobot, origin: &Value, record: &Value, options: &Value) -> Value {
+fn run(robot: &CompiledRobot, origin: &Value, record: &Value, options: &Value) -> Value {
     let gait = shipped::gait_file("low-175").unwrap();
     json!({
         "program": "prone", "version": env!("CARGO_PKG_VERSION"), "commit": "c",
@@ -95,7 +95,7 @@ pub fn run(robot: &CompiledRobot, origin: &Value, record: &Value, options: &Valu
 }
 
 /// Writes a simulated record, whole.
-pub fn whole(folder: &Path) {
+pub(crate) fn whole(folder: &Path) {
     let nao = nao();
     let robot = nao.robot();
     let channels = crawl_tables::channels(robot);
@@ -157,7 +157,7 @@ pub fn whole(folder: &Path) {
 
 /// Writes what a robot may leave: angles of all joints but the first, torques of one with a gap,
 /// nothing else, and rows when they came.
-pub fn sparse(folder: &Path) {
+pub(crate) fn sparse(folder: &Path) {
     let nao = nao();
     let robot = nao.robot();
     let names = || robot.joints.iter().map(|joint| joint.name.as_str());
