@@ -41,7 +41,7 @@ FIGURES = [
 # What `prone view` and `prone export` read: the pulls that pictures show, and the shorter crawl.
 CRAWL = "crawls/table-9-cycles"
 RECORDS = {f"pulls/{gait}-5s": (5.0, 0.05) for gait in GAITS} | {CRAWL: (27.0, 0.02)}
-RECORD = ["run.json", "model.json", "rows.csv", "contacts.csv"]
+RECORD = ["run.json", "model.json", "rows.csv", "contacts.csv", "robot.compiled.json"]
 
 FILES = sorted(
     ["figures/crawl.png", "report.html", "run.json", "summary.json", "timing.json", "costs.csv", "agreement.csv"]

@@ -61,21 +61,24 @@ fn say(out: &Path, said: &str) -> Result<(), Failure> {
 
 /// The content of a file that is made of the record's tables, and what it holds.
 fn of_tables(args: &ExportArgs, record: &Recorded) -> Result<(Vec<u8>, String), Failure> {
-    let gaps: Vec<String> = record.unrecorded();
-    let gaps: String = gaps.iter().map(|gap| format!("; {gap}")).collect();
+    let said = |held: String| {
+        let gaps = record.unrecorded().into_iter();
+        let all: Vec<String> = std::iter::once(held).chain(gaps).collect();
+        all.join("; ")
+    };
     let held = format!("{}, {}", span(record), joints(record));
     match args.format {
         Format::Csv => {
             let bytes = table::of(record).map_err(Failure::work)?;
-            Ok((bytes, held + &gaps))
+            Ok((bytes, said(held)))
         }
         Format::Npz => {
             let bytes = numpy::of(record).map_err(Failure::work)?;
-            Ok((bytes, held + &gaps))
+            Ok((bytes, said(held)))
         }
         Format::Mcap => {
-            let said = format!("{held}, {} contacts{gaps}", record.contacts.len());
-            Ok((ros_log::of(record).map_err(Failure::work)?, said))
+            let held = format!("{held}, {} contacts", record.contacts.len());
+            Ok((ros_log::of(record).map_err(Failure::work)?, said(held)))
         }
         _ => unreachable!("the other formats are made elsewhere"),
     }

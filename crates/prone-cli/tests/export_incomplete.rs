@@ -6,6 +6,8 @@ mod short_crawl;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use prone_record::recorded::FILES;
+
 use program::prone;
 use short_crawl::record;
 
@@ -14,7 +16,7 @@ fn changed(home: &Path, file: &str, change: impl Fn(&str) -> String) -> PathBuf 
     let copy = home.join("cut");
     let _ = fs::remove_dir_all(&copy);
     fs::create_dir(&copy).unwrap();
-    for name in ["run.json", "model.json", "rows.csv", "contacts.csv"] {
+    for name in FILES {
         fs::copy(record().join(name), copy.join(name)).unwrap();
     }
     let path = copy.join(file);

@@ -6,8 +6,7 @@ use prone::scene::{ContactForce, Obstacle, obstacle_name};
 use prone::steering::Bearing;
 
 use crate::crawl_summary::CrawlSummary;
-use crate::record_info::{Channel, ChannelKind};
-use crate::recorded::Part;
+use crate::record_info::{Channel, ChannelKind, Part};
 use crate::tables::{finish, number};
 
 /// `cycles.csv`.

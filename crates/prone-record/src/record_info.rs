@@ -7,10 +7,14 @@ use serde::{Deserialize, Serialize};
 use crate::head::Head;
 use crate::origin::{Origin, RegimeInfo};
 use crate::program::RobotInfo;
-use crate::recorded::{Command, Part};
 
 /// The format of records that is written and read; records before it have no number.
 pub const FORMAT: u64 = 2;
+
+/// The table of instants.
+pub const ROWS_FILE: &str = "rows.csv";
+/// The table of contacts.
+pub const CONTACTS_FILE: &str = "contacts.csv";
 
 /// What `run.json` says of a record.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -218,6 +222,55 @@ impl From<StatedOptions> for Options {
     }
 }
 
+/// Which command has written a record.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Command {
+    /// A crawl.
+    #[serde(rename = "crawl run")]
+    Crawl,
+    /// A pull of the published study: no cycle, no way back.
+    #[serde(rename = "reproduce pull")]
+    ReproducePull,
+    /// A crawl under the published table.
+    #[serde(rename = "reproduce crawl")]
+    ReproduceCrawl,
+}
+
+impl Command {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Crawl, Self::ReproducePull, Self::ReproduceCrawl];
+
+    /// Its name in `run.json`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Crawl => "crawl run",
+            Self::ReproducePull => "reproduce pull",
+            Self::ReproduceCrawl => "reproduce crawl",
+        }
+    }
+}
+
+/// A table of a record.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Part {
+    /// `rows.csv`.
+    #[serde(rename = "rows.csv")]
+    Rows,
+    /// `contacts.csv`.
+    #[serde(rename = "contacts.csv")]
+    Contacts,
+}
+
+impl Part {
+    /// Its file in the record folder.
+    pub const fn file(self) -> &'static str {
+        match self {
+            Self::Rows => ROWS_FILE,
+            Self::Contacts => CONTACTS_FILE,
+        }
+    }
+}
+
 /// What the tables of a record hold.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Extent {
@@ -283,47 +336,5 @@ impl Extent {
         of_table
             .flat_map(|channel| &channel.columns)
             .map(String::as_str)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::recorded::sample;
-
-    /// A script that reads `regime` finds it; a program reads the origin.
-    #[test]
-    fn a_record_is_read_as_it_is_written() {
-        let simulated = r#"{"kind": "simulated", "engine": "E 1", "name": "locomotion",
-            "friction": 0.7, "impratio": 10.0, "effort_limit": "l", "stops": "s", "servo_gain": "g",
-            "servo_rate_per_s": 20.0, "servo_speed_rad_s": 3.0, "time_step_s": 0.0025,
-            "command_step_s": 0.01, "settle_s": 1.0, "solref": [0.02, 1.0],
-            "solimp": [0.9, 0.99, 0.001, 0.5, 2.0], "integrator": "i", "solver": "Newton",
-            "solver_iterations": 100, "solver_tolerance": 1e-8, "cone": "elliptic",
-            "gravity_m_s2": [0.0, 0.0, -9.81], "servo_gains_nms_rad": {"A": 1.0},
-            "effort_limits_nm": {"A": 2.0}}"#;
-        let text = sample::run_json().replace(sample::ORIGIN, simulated);
-        let info: RecordInfo = serde_json::from_str(&text).unwrap();
-        let written = serde_json::to_value(&info).unwrap();
-        assert_eq!(written["regime"]["name"], "locomotion");
-        assert_eq!(written["origin"]["kind"], "simulated");
-        assert_eq!(written["origin"]["time_step_s"], 0.0025);
-        assert_eq!(written["options"]["until_past_mm"], serde_json::Value::Null);
-        let again: RecordInfo = serde_json::from_value(written).unwrap();
-        assert_eq!(again, info);
-    }
-
-    #[test]
-    fn a_pull_is_known_by_its_duration() {
-        let text =
-            r#"{"time_scale": 1.0, "scene_text": null, "duration_s": 5.0, "start_posture": "p"}"#;
-        let options: Options = serde_json::from_str(text).unwrap();
-        assert!(
-            matches!(&options, Options::Pull(pull) if pull.start_posture.as_deref() == Some("p"))
-        );
-        assert_eq!(
-            serde_json::to_string(&options).unwrap(),
-            text.replace(": ", ":").replace(", ", ",")
-        );
     }
 }

@@ -25,21 +25,16 @@ use std::path::Path;
 use prone::frames::{Ground, Point, Root, Transform};
 use prone::robot::JointAngles;
 
-pub use cut::{Cut, Damage, Part};
+pub use cut::{Cut, Damage};
 pub use error::ReadError;
 pub use model::{Hinge, Inertia, MODEL_FILE, RecordedBody, RecordedShape};
 pub use robot::{RecordedModel, compiled_robot};
-pub use run::Command;
 
 use crate::output::RUN_FILE;
 use crate::record_info::RecordInfo;
+pub use crate::record_info::{CONTACTS_FILE, Command, Part, ROWS_FILE};
 use rows::Rows;
 use table::Table;
-
-/// The table of instants.
-pub const ROWS_FILE: &str = "rows.csv";
-/// The table of contacts.
-pub const CONTACTS_FILE: &str = "contacts.csv";
 
 /// The files of a record.
 pub const FILES: [&str; 5] = [RUN_FILE, MODEL_FILE, ROWS_FILE, CONTACTS_FILE, ROBOT_FILE];

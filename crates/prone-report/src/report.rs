@@ -68,7 +68,7 @@ pub struct Source {
 
 /// What was read of a folder.
 enum Run {
-    Published(Folder, Box<dyn PublishedRun>),
+    Published(Box<Folder>, Box<dyn PublishedRun>),
     Crawl(Box<CrawlRun>),
     Pull(Box<PullRun>),
     Search(Box<SearchRun>),
@@ -270,7 +270,7 @@ fn read(
     if let Some(published) = publication.read(&folder) {
         let published = published?;
         let within = folder.records();
-        let mut runs = vec![Run::Published(folder, published)];
+        let mut runs = vec![Run::Published(Box::new(folder), published)];
         for inner in within {
             let (name, path) = (format!("{name}/{inner}"), path.join(&inner));
             runs.extend(read(&name, &path, Given::Within, publication)?);

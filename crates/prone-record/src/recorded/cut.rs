@@ -1,29 +1,6 @@
 //! What is missing of a table, where, and by what that is known.
 
-use serde::{Deserialize, Serialize};
-
-use super::{CONTACTS_FILE, ROWS_FILE};
-
-/// A table of a record.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Part {
-    /// `rows.csv`.
-    #[serde(rename = "rows.csv")]
-    Rows,
-    /// `contacts.csv`.
-    #[serde(rename = "contacts.csv")]
-    Contacts,
-}
-
-impl Part {
-    /// Its file in the record folder.
-    pub const fn file(self) -> &'static str {
-        match self {
-            Self::Rows => ROWS_FILE,
-            Self::Contacts => CONTACTS_FILE,
-        }
-    }
-}
+use crate::record_info::Part;
 
 /// Where a table can be used no further.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

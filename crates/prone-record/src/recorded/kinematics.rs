@@ -33,12 +33,11 @@ impl Recorded {
     /// of the body's hinge, or the root's pose, was not recorded.
     pub fn parent_from_bodies(&self, row: &RecordedRow) -> Vec<Option<Transform<Link, Link>>> {
         let poses = self.bodies.iter().map(|body| {
-            let rest = match body.parent {
-                Some(_) => body.parent_from_body,
-                None => {
-                    let root = row.ground_from_root.as_ref()?;
-                    Transform::new(root.rotation(), root.origin().metres())
-                }
+            let rest = if body.parent.is_some() {
+                body.parent_from_body
+            } else {
+                let root = row.ground_from_root.as_ref()?;
+                Transform::new(root.rotation(), root.origin().metres())
             };
             let Some(hinge) = body.hinge else {
                 return Some(rest);

@@ -2,45 +2,17 @@
 
 use std::path::Path;
 
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use serde_json::Value;
 
+use super::ReadError;
 use super::model::MODEL_FILE;
-use super::{Part, ReadError};
 use crate::head::Head;
 use crate::output::RUN_FILE;
-use crate::record_info::{FORMAT, RecordInfo};
+use crate::record_info::{Command, FORMAT, Part, RecordInfo};
 
 /// Longest time between two rows, s: a record of a robot that is slower is none.
 const LONGEST_STEP_S: f64 = 10.0;
-
-/// Which command has written a record.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Command {
-    /// A crawl.
-    #[serde(rename = "crawl run")]
-    Crawl,
-    /// A pull of the published study: no cycle, no way back.
-    #[serde(rename = "reproduce pull")]
-    ReproducePull,
-    /// A crawl under the published table.
-    #[serde(rename = "reproduce crawl")]
-    ReproduceCrawl,
-}
-
-impl Command {
-    /// All of them.
-    const ALL: [Self; 3] = [Self::Crawl, Self::ReproducePull, Self::ReproduceCrawl];
-
-    /// Its name in `run.json`.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Crawl => "crawl run",
-            Self::ReproducePull => "reproduce pull",
-            Self::ReproduceCrawl => "reproduce crawl",
-        }
-    }
-}
 
 impl RecordInfo {
     /// Reads `run.json` of a record that this version of the program has written.

@@ -1,5 +1,6 @@
 use super::sample::{CONTACTS, MODEL, ROWS, folder, run_json};
 use super::*;
+use crate::record_info::Options;
 
 fn read(changes: &[(&str, Option<&str>)]) -> Result<Recorded, ReadError> {
     Recorded::read(folder(changes).path())
@@ -298,6 +299,40 @@ fn what_needs_no_table_is_read_without() {
     let crawl = run.options.crawl().unwrap();
     assert_eq!(crawl.steering.as_deref(), Some("none"));
     assert_eq!(run.options.scene_text(), None);
+}
+
+/// A script that reads `regime` finds it; a program reads the origin.
+#[test]
+fn a_record_is_read_as_it_is_written() {
+    let simulated = r#"{"kind": "simulated", "engine": "E 1", "name": "locomotion",
+        "friction": 0.7, "impratio": 10.0, "effort_limit": "l", "stops": "s", "servo_gain": "g",
+        "servo_rate_per_s": 20.0, "servo_speed_rad_s": 3.0, "time_step_s": 0.0025,
+        "command_step_s": 0.01, "settle_s": 1.0, "solref": [0.02, 1.0],
+        "solimp": [0.9, 0.99, 0.001, 0.5, 2.0], "integrator": "i", "solver": "Newton",
+        "solver_iterations": 100, "solver_tolerance": 1e-8, "cone": "elliptic",
+        "gravity_m_s2": [0.0, 0.0, -9.81], "servo_gains_nms_rad": {"A": 1.0},
+        "effort_limits_nm": {"A": 2.0}}"#;
+    let text = sample::run_json().replace(sample::ORIGIN, simulated);
+    let info: RecordInfo = serde_json::from_str(&text).unwrap();
+    let written = serde_json::to_value(&info).unwrap();
+    assert_eq!(written["regime"]["name"], "locomotion");
+    assert_eq!(written["origin"]["kind"], "simulated");
+    assert_eq!(written["origin"]["time_step_s"], 0.0025);
+    assert_eq!(written["options"]["until_past_mm"], serde_json::Value::Null);
+    let again: RecordInfo = serde_json::from_value(written).unwrap();
+    assert_eq!(again, info);
+}
+
+#[test]
+fn a_pull_is_known_by_its_duration() {
+    let text =
+        r#"{"time_scale": 1.0, "scene_text": null, "duration_s": 5.0, "start_posture": "p"}"#;
+    let options: Options = serde_json::from_str(text).unwrap();
+    assert!(matches!(&options, Options::Pull(pull) if pull.start_posture.as_deref() == Some("p")));
+    assert_eq!(
+        serde_json::to_string(&options).unwrap(),
+        text.replace(": ", ":").replace(", ", ",")
+    );
 }
 
 /// The head and the extent of a record as the release before wrote them.

@@ -94,7 +94,9 @@ pub fn of(record: &Recorded) -> Result<Vec<u8>, McapError> {
         .commands
         .then(|| log.channel(joint_state, "/joint_commands"))
         .transpose()?;
-    let poses = known.poses.then(|| log.channel(tf, "/tf")).transpose()?;
+    let poses = has_poses(record)
+        .then(|| log.channel(tf, "/tf"))
+        .transpose()?;
     let mut pairs: BTreeMap<Pair<'_>, u16> = BTreeMap::new();
     for contact in &record.contacts {
         let pair = (contact.body, contact.with.as_str());
@@ -154,12 +156,11 @@ pub fn of(record: &Recorded) -> Result<Vec<u8>, McapError> {
     Ok(log.writer.into_inner().into_inner())
 }
 
-/// Which channels a record has, at any instant and of any joint.
+/// Which numbers of joints a record has, at any instant and of any joint.
 struct Known {
     commands: bool,
     angles: bool,
     torques: bool,
-    poses: bool,
 }
 
 impl Known {
@@ -169,16 +170,22 @@ impl Known {
             let mut values = rows.iter().flat_map(values);
             values.any(|value| !value.is_nan())
         };
-        let mut poses = rows.iter().flat_map(|row| record.parent_from_bodies(row));
         Self {
             commands: any(|row| row.command.as_slice()),
             angles: any(|row| row.angles.as_slice()),
             torques: any(|row| &row.actuator_torque_nm),
-            poses: poses.any(|pose| pose.is_some()),
         }
     }
 }
 
+/// Whether the pose of any body is known at any instant.
+fn has_poses(record: &Recorded) -> bool {
+    let rows = record.rows.iter();
+    let mut poses = rows.flat_map(|row| record.parent_from_bodies(row));
+    poses.any(|pose| pose.is_some())
+}
+
+/// The numbers, or none where they were never recorded.
 const fn shown(known: bool, values: &[f64]) -> &[f64] {
     if known { values } else { &[] }
 }

@@ -1,0 +1,188 @@
+//! Records made by hand are shown, reported and exported by a program without an engine.
+
+mod made;
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use prone::gait::cycle::{CheckedCycle, TimeScale};
+use prone_files::cycle_file;
+use prone_record::record_info::RecordInfo;
+use prone_record::recorded::{Recorded, RecordedModel, compiled_robot};
+use prone_report::export::{key_frames, numpy, ros_log, table, timeline, urdf};
+use prone_report::report::{Report, Source, Unpublished};
+use prone_report::view;
+
+fn folder(make: fn(&Path)) -> tempfile::TempDir {
+    let home = tempfile::tempdir().unwrap();
+    make(home.path());
+    home
+}
+
+fn report(folder: &Path) -> Report {
+    let source = Source {
+        name: "RUN".to_owned(),
+        folder: folder.to_owned(),
+    };
+    Report::of(&[source], &Unpublished).unwrap()
+}
+
+/// How many messages each topic of an MCAP file has.
+fn messages(bytes: &[u8]) -> BTreeMap<String, usize> {
+    let mut counts = BTreeMap::new();
+    for message in mcap::MessageStream::new(bytes).unwrap() {
+        let topic = message.unwrap().channel.topic.clone();
+        *counts.entry(topic).or_default() += 1;
+    }
+    counts
+}
+
+fn lines(bytes: Vec<u8>) -> Vec<String> {
+    let text = String::from_utf8(bytes).unwrap();
+    text.lines().map(str::to_owned).collect()
+}
+
+#[test]
+fn a_whole_record_is_shown_and_reported() {
+    let home = folder(made::whole);
+    let run = view::record::read(home.path()).unwrap();
+    assert_eq!((run.title(), run.rows()), ("low-175 · level", 3));
+    assert_eq!((run.shortfalls(), run.gaps()), (&[][..], &[][..]));
+    let page = view::page(&[&run]).unwrap();
+    assert!(page.contains("\"LKneePitch_rad\""));
+    // Pictures turn nothing by torques.
+    assert!(!page.contains("\"principal\""));
+    let report = report(home.path());
+    assert_eq!(report.numbers.cards.len(), 1);
+    assert_eq!(report.numbers.cards[0].steering, "none");
+    assert_eq!(report.numbers.replayed, ["RUN"]);
+    assert_eq!(
+        (
+            report.numbers.shortfalls.len(),
+            report.numbers.unrecorded.len()
+        ),
+        (0, 0)
+    );
+    for said in ["implicitfast, Newton, elliptic", "the maker's", "Replay"] {
+        assert!(report.html.contains(said), "{said}");
+    }
+    assert!(
+        report
+            .numbers
+            .figures
+            .iter()
+            .any(|figure| figure.stem == "fig-31-low-175-angles")
+    );
+}
+
+#[test]
+fn a_whole_record_is_exported_with_its_robot() {
+    let home = folder(made::whole);
+    let record = Recorded::read(home.path()).unwrap();
+    let joints = record.joints.len();
+    assert_eq!(lines(table::of(&record).unwrap()).len(), 1 + 3 * joints);
+    assert!(numpy::of(&record).unwrap().starts_with(b"PK"));
+    let counts = messages(&ros_log::of(&record).unwrap());
+    let topics: Vec<&str> = counts.keys().map(String::as_str).collect();
+    let contact = format!("/contacts/{}/floor", record.bodies[1].name);
+    assert_eq!(
+        topics,
+        [&contact, "/joint_commands", "/joint_states", "/tf"]
+    );
+    assert!(counts.values().all(|count| *count == 3), "{counts:?}");
+    // Without the tables and without the engine.
+    let info = RecordInfo::read(home.path()).unwrap();
+    let compiled = compiled_robot(home.path(), &info).unwrap();
+    let robot = compiled.robot();
+    let model = RecordedModel::read(home.path()).unwrap();
+    let text = urdf::of(robot, &model).unwrap();
+    assert_eq!(text.matches("<link ").count(), robot.bodies.len());
+    assert_eq!(text.matches("type=\"revolute\"").count(), joints);
+    // A capsule is three solids that are drawn and collide, an ellipsoid is drawn, a box collides.
+    assert_eq!(text.matches("<visual>").count(), 4);
+    assert_eq!(text.matches("<collision>").count(), 4);
+    let cycle = cycle_file::parse("low-175.toml", &info.gait.text.unwrap()).unwrap();
+    let scale = TimeScale::new(info.options.time_scale().unwrap()).unwrap();
+    let checked = CheckedCycle::plan(robot, &robot.stops(), &cycle, 0.0, scale).unwrap();
+    let frames = key_frames::of(&checked, key_frames::TICK).unwrap();
+    assert!(
+        key_frames::json(robot, &checked, &frames)
+            .unwrap()
+            .starts_with(b"{")
+    );
+    assert!(timeline::xar(robot, checked.name(), &frames).contains("LKneePitch"));
+}
+
+#[test]
+fn a_compiled_robot_of_other_files_is_refused() {
+    let home = folder(made::whole);
+    let mut info = RecordInfo::read(home.path()).unwrap();
+    info.robot.sha256 = "0".repeat(64);
+    let said = compiled_robot(home.path(), &info).unwrap_err().to_string();
+    assert!(
+        said.contains("robot.compiled.json: it was compiled from files with the hash"),
+        "{said}"
+    );
+}
+
+/// Missing channels, uneven times: all that there is is shown, and what is not is said.
+#[test]
+fn a_sparse_record_is_shown_and_reported_as_far_as_it_goes() {
+    let home = folder(made::sparse);
+    let run = view::record::read(home.path()).unwrap();
+    assert_eq!((run.rows(), run.shortfalls()), (3, &[][..]));
+    let gaps = run.gaps();
+    let first = made::nao().robot().joints[0].name.clone();
+    for said in [
+        "the pose of the root was not recorded",
+        &format!("the angle of {first} was not recorded"),
+        "the command of the joints was not recorded",
+        "contacts were not recorded",
+        "the replay leaves the robot's root where it is, at the origin",
+        "joints without an angle cannot be replayed: the page draws them at zero",
+    ] {
+        assert!(gaps.iter().any(|gap| gap == said), "{said}: {gaps:?}");
+    }
+    let page = view::page(&[&run]).unwrap();
+    assert!(page.contains("the robot nao.local"));
+    let report = report(home.path());
+    assert_eq!(report.numbers.cards.len(), 0);
+    assert_eq!(report.numbers.shortfalls, [""; 0]);
+    let unrecorded = &report.numbers.unrecorded;
+    assert!(
+        unrecorded.contains(&"RUN/contacts were not recorded".to_owned()),
+        "{unrecorded:?}"
+    );
+    for said in [
+        "What was not recorded",
+        "no summary.json: there is no report card",
+        "NAOqi 2.1",
+        "unknown",
+    ] {
+        assert!(report.html.contains(said), "{said}");
+    }
+}
+
+#[test]
+fn a_sparse_record_is_exported_as_far_as_it_goes() {
+    let home = folder(made::sparse);
+    let record = Recorded::read(home.path()).unwrap();
+    let joints = record.joints.len();
+    assert_eq!(joints, made::nao().robot().joints.len());
+    let table = lines(table::of(&record).unwrap());
+    assert_eq!(table.len(), 1 + 3 * joints);
+    // No command; 0.021 - 0.013 rad in as many seconds; a torque.
+    let joint = &record.joints[0];
+    assert_eq!(table[1], format!("0.0130,{joint},,0.013000,1.0000,0.50000"));
+    let unseen = record.joints.last().unwrap();
+    assert_eq!(table[joints], format!("0.0130,{unseen},,,,"));
+    let archive = numpy::of(&record).unwrap();
+    assert!(
+        archive
+            .windows(8)
+            .any(|bytes| bytes == f64::NAN.to_le_bytes())
+    );
+    let counts = messages(&ros_log::of(&record).unwrap());
+    let expected = [("/joint_states".to_owned(), 3), ("/tf".to_owned(), 3)];
+    assert_eq!(counts, BTreeMap::from(expected));
+}
