@@ -11,6 +11,7 @@ use serde_json::json;
 
 use prone::crawl::CrawlerError;
 use prone_record::crawl_summary::CrawlSummary;
+use prone_record::lock::Lock;
 use prone_record::output;
 use prone_record::program::Program;
 use prone_sim::World;
@@ -19,7 +20,6 @@ use prone_study::crawl::record::{self, Recording};
 use prone_study::crawl::summary;
 
 use crate::args::{CrawlCommand, CrawlRunArgs};
-use crate::lock::Lock;
 use crate::{Failure, interrupt};
 use plan::Plan;
 
@@ -38,10 +38,8 @@ fn crawl_run(args: &CrawlRunArgs) -> Result<(), Failure> {
     let _lock = match &args.record {
         Some(folder) => {
             output::check(folder).map_err(Failure::input)?;
-            Some(Lock::beside(
-                folder,
-                "crawl that is recorded in this folder",
-            )?)
+            let what = "crawl that is recorded in this folder";
+            Some(Lock::for_folder(folder, what).map_err(Failure::input)?)
         }
         None => None,
     };

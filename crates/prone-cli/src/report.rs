@@ -9,11 +9,12 @@ use anyhow::anyhow;
 
 use prone_record::output;
 use prone_record::program::Program;
+use prone_record::single_file;
 use prone_report::report::{PAGE_FILE, Report, ReportError, Source};
 use prone_thesis::chapter::Thesis;
 
 use crate::args::ReportArgs;
-use crate::{Failure, interrupt, record_folder, table_file};
+use crate::{Failure, interrupt, record_folder};
 
 pub(crate) fn run(args: &ReportArgs) -> Result<(), Failure> {
     let sources = sources(&args.runs)?;
@@ -27,7 +28,7 @@ pub(crate) fn run(args: &ReportArgs) -> Result<(), Failure> {
     interrupt::listen()?;
     match place {
         Place::Page(file) => {
-            table_file::check_place(file).map_err(|error| cannot_write(file, &error))?;
+            single_file::check_place(file).map_err(Failure::input)?;
         }
         Place::Folder(folder) => output::check(folder).map_err(Failure::input)?,
     }
@@ -40,8 +41,7 @@ pub(crate) fn run(args: &ReportArgs) -> Result<(), Failure> {
         .map_err(failure)?;
     match place {
         Place::Page(file) => interrupt::publish(|| {
-            table_file::write(file, report.html.as_bytes())
-                .map_err(|error| cannot_write(file, &error))
+            single_file::write(file, report.html.as_bytes()).map_err(Failure::input)
         })?,
         Place::Folder(folder) => {
             let program = Program {
@@ -83,10 +83,6 @@ impl<'a> Place<'a> {
             Self::Folder(folder) => folder.join(PAGE_FILE),
         }
     }
-}
-
-fn cannot_write(file: &Path, error: &std::io::Error) -> Failure {
-    Failure::Input(anyhow!("cannot write {}: {error}", file.display()))
 }
 
 /// The folders under the names that were typed, each once.
