@@ -9,12 +9,12 @@ use std::sync::Arc;
 use anyhow::anyhow;
 use serde_json::json;
 
+use prone_record::lock::Lock;
 use prone_record::output;
 use prone_study::crawl::CrawlSetup;
 use prone_study::run::{RunError, Session, Took};
 
 use crate::args::{CrawlCommand, CrawlRunArgs};
-use crate::lock::Lock;
 use crate::{Failure, interrupt};
 
 pub(crate) fn run(command: &CrawlCommand) -> Result<(), Failure> {
@@ -33,10 +33,8 @@ fn crawl_run(args: &CrawlRunArgs) -> Result<(), Failure> {
     let _lock = match &args.record {
         Some(folder) => {
             output::check(folder).map_err(Failure::input)?;
-            Some(Lock::beside(
-                folder,
-                "crawl that is recorded in this folder",
-            )?)
+            let what = "crawl that is recorded in this folder";
+            Some(Lock::for_folder(folder, what).map_err(Failure::input)?)
         }
         None => None,
     };

@@ -13,10 +13,11 @@ use prone::gait::cycle::{CheckedCycle, TimeScale};
 use prone_files::cycle_file;
 use prone_record::record_info::RecordInfo;
 use prone_record::recorded::{Command, Recorded, RecordedModel};
+use prone_record::single_file;
 use prone_report::export::{key_frames, numpy, ros_log, table, timeline, urdf};
 
 use crate::args::{ExportArgs, Format};
-use crate::{Failure, interrupt, record_folder, table_file};
+use crate::{Failure, interrupt, record_folder};
 
 pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
     let is_film = matches!(args.format, Format::Mp4 | Format::Webp | Format::Gif);
@@ -48,9 +49,7 @@ pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
 
 /// Writes the file, and says what it holds.
 fn put(out: &Path, bytes: &[u8], said: &str) -> Result<(), Failure> {
-    interrupt::publish(|| {
-        table_file::write(out, bytes).map_err(|error| cannot_write(out, &error))
-    })?;
+    interrupt::publish(|| single_file::write(out, bytes).map_err(Failure::work))?;
     say(out, said)
 }
 

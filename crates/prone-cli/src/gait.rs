@@ -14,12 +14,13 @@ use prone_files::gait_text::GaitText;
 use prone_files::gaits::Gaits;
 use prone_files::text_file::ReadError;
 use prone_files::{cycle_file, gait_file, shipped, text_file};
+use prone_record::single_file;
 use prone_sim::LoadedRobot;
 use prone_study::crawl::GaitSource;
 use prone_study::gait_sheet::{self, GaitSheet};
 
+use crate::Failure;
 use crate::args::GaitShowArgs;
-use crate::{Failure, table_file};
 
 /// Every how many of the 101 instants one is printed.
 const PRINTED_EVERY: usize = 10;
@@ -184,7 +185,7 @@ fn inputs(args: &GaitShowArgs, loaded: &LoadedRobot) -> Result<Vec<PathBuf>, Fai
 }
 
 fn write_csv(sheet: &GaitSheet, path: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {
-    if let Some(input) = table_file::same_file(path, inputs) {
+    if let Some(input) = single_file::same_file(path, inputs) {
         return Err(Failure::Input(anyhow!(
             "--csv {} would overwrite {}, which was read",
             path.display(),
@@ -192,8 +193,7 @@ fn write_csv(sheet: &GaitSheet, path: &Path, inputs: &[PathBuf]) -> Result<(), F
         )));
     }
     let table = sheet.csv().map_err(Failure::work)?;
-    table_file::write(path, &table)
-        .map_err(|error| Failure::Input(anyhow!("cannot write {}: {error}", path.display())))
+    single_file::write(path, &table).map_err(Failure::input)
 }
 
 fn print(sheet: &GaitSheet, robot: &Robot, out: &mut impl std::io::Write) -> std::io::Result<()> {

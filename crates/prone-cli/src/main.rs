@@ -13,7 +13,6 @@ mod export;
 mod failure;
 mod gait;
 mod interrupt;
-mod lock;
 mod optimize;
 mod passage;
 mod pricing;
@@ -22,7 +21,6 @@ mod record_folder;
 mod report;
 mod reproduce;
 mod robot;
-mod table_file;
 mod torque_map;
 mod view;
 

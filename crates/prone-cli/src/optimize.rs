@@ -4,7 +4,6 @@ mod files;
 mod report;
 
 use std::ops::ControlFlow;
-use std::path::Path;
 use std::time::{Duration, Instant};
 
 use anyhow::anyhow;
@@ -14,6 +13,7 @@ use prone::gait::Gait;
 use prone::regime::Regime;
 use prone_record::gait_search::Confirmation;
 use prone_record::output;
+use prone_record::resumption::Snapshot;
 use prone_record::search::{Search, SearchEnd, Solver};
 use prone_sim::World;
 use prone_study::optimize::confirm::{self, ConfirmError, ConfirmPlan};
@@ -23,7 +23,7 @@ use prone_study::optimize::pricer::{self, Aim};
 
 use self::files::pretty;
 use crate::args::optimize::{EndsName, OptimizeArgs, SolverName};
-use crate::checkpoint::Checkpoint;
+use crate::checkpoint::{self, suspended, unwritten};
 use crate::pricing::Pricing;
 use crate::progress::{Progress, SearchProgress};
 use crate::{Failure, interrupt};
@@ -62,11 +62,10 @@ pub(crate) fn run(args: &OptimizeArgs) -> Result<(), Failure> {
         .map_err(|error| Failure::Work(anyhow!("cannot start worker threads: {error}")))?;
 
     let mut plan = plan(args, &pricing, &forms);
-    let mut checkpoint = Checkpoint::beside(&args.out, plan.clone());
+    let (mut checkpoint, earlier) = checkpoint::open(&args.out, &plan, args.resume)?;
     // Not part of what a checkpoint must agree with: a search may be given more.
     plan["budget"] = json!(budget(args, &pricing));
-    let _lock = checkpoint.lock()?;
-    let mut search = begin(args, &pricing, &checkpoint)?;
+    let mut search = begin(args, &pricing, earlier)?;
     let started = Instant::now();
     let before = search.evaluations();
     let end = pool.install(|| hunt_down(args, &hunt, &mut search, &mut checkpoint))?;
@@ -107,6 +106,7 @@ pub(crate) fn run(args: &OptimizeArgs) -> Result<(), Failure> {
             SearchEnd::Finished => checkpoint.remove(),
             SearchEnd::Interrupted => checkpoint.write(&search),
         }
+        .map_err(unwritten)
     })
     .map_err(kept)?;
     report::report(args, &outcome, &confirmation)
@@ -210,23 +210,13 @@ fn gait_name(args: &OptimizeArgs) -> String {
 fn begin(
     args: &OptimizeArgs,
     pricing: &Pricing,
-    checkpoint: &Checkpoint,
+    earlier: Option<Search>,
 ) -> Result<Search, Failure> {
-    let fresh = || Search::new(solver(args), args.seed, args.runs, budget(args, pricing));
-    if !args.resume {
-        checkpoint.announce_replacement();
-        return Ok(fresh());
-    }
-    let Some(mut search) = checkpoint.read::<Search>()? else {
-        eprintln!(
-            "no checkpoint at {}: beginning anew",
-            checkpoint.path().display()
-        );
-        return Ok(fresh());
+    let budget = budget(args, pricing);
+    let Some(mut search) = earlier else {
+        return Ok(Search::new(solver(args), args.seed, args.runs, budget));
     };
-    search
-        .allow(budget(args, pricing))
-        .map_err(Failure::input)?;
+    search.allow(budget).map_err(Failure::input)?;
     eprintln!("going on after {} evaluations", search.evaluations());
     Ok(search)
 }
@@ -235,7 +225,7 @@ fn hunt_down(
     args: &OptimizeArgs,
     hunt: &Hunt<'_>,
     search: &mut Search,
-    checkpoint: &mut Checkpoint,
+    checkpoint: &mut Snapshot<Search>,
 ) -> Result<SearchEnd, Failure> {
     let progress = SearchProgress::new(search)?;
     let started = Instant::now();
@@ -255,23 +245,16 @@ fn hunt_down(
         }
     });
     progress.finish();
-    kept?;
+    kept.map_err(unwritten)?;
     if interrupt::requested() {
-        checkpoint.write(search)?;
+        checkpoint.write(search).map_err(unwritten)?;
         return Err(suspended(checkpoint.path()));
     }
     if search.best().is_some() {
         // The confirmation may still be interrupted.
-        checkpoint.write(search)?;
+        checkpoint.write(search).map_err(unwritten)?;
     }
     Ok(end)
-}
-
-fn suspended(checkpoint: &Path) -> Failure {
-    Failure::Paused(format!(
-        "the search is kept in {}, and --resume goes on from there",
-        checkpoint.display()
-    ))
 }
 
 fn found_gait(

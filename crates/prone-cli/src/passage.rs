@@ -9,6 +9,7 @@ use prone::gait::cycle::Cycle;
 use prone_files::cycle_file;
 use prone_record::frontier::CycleObjective;
 use prone_record::search::{Search, SearchEnd};
+use prone_record::single_file;
 use prone_sim::LoadedRobot;
 use prone_study::cycle_search::frontier::{self, Hunt};
 use prone_study::cycle_search::passage::{Passage, Tried};
@@ -19,7 +20,7 @@ use prone_study::cycle_search::settings;
 use crate::args::passage::UnderArgs;
 use crate::gait::find_cycle;
 use crate::progress::SearchProgress;
-use crate::{Failure, interrupt, table_file};
+use crate::{Failure, interrupt};
 
 /// A cycle by name, or the cycle of a file.
 pub(crate) fn find(robot: &LoadedRobot, name: &str) -> Result<Cycle, Failure> {
@@ -85,9 +86,7 @@ pub(crate) fn run(args: &UnderArgs) -> Result<(), Failure> {
         );
         if let Some(cycle) = cycle {
             let text = cycle_file::write(cycle, &header);
-            table_file::write(path, text.as_bytes()).map_err(|error| {
-                Failure::Input(anyhow!("cannot write {}: {error}", path.display()))
-            })?;
+            single_file::write(path, text.as_bytes()).map_err(Failure::input)?;
         }
     }
     let mut out = std::io::stdout().lock();

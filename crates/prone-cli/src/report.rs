@@ -8,11 +8,12 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 
 use prone_record::output;
+use prone_record::single_file;
 use prone_report::report::{PAGE_FILE, Report, ReportError, Source};
 use prone_thesis::chapter::Thesis;
 
 use crate::args::ReportArgs;
-use crate::{Failure, interrupt, record_folder, table_file};
+use crate::{Failure, interrupt, record_folder};
 
 pub(crate) fn run(args: &ReportArgs) -> Result<(), Failure> {
     let sources = sources(&args.runs)?;
@@ -26,7 +27,7 @@ pub(crate) fn run(args: &ReportArgs) -> Result<(), Failure> {
     interrupt::listen()?;
     match place {
         Place::Page(file) => {
-            table_file::check_place(file).map_err(|error| cannot_write(file, &error))?;
+            single_file::check_place(file).map_err(Failure::input)?;
         }
         Place::Folder(folder) => output::check(folder).map_err(Failure::input)?,
     }
@@ -39,8 +40,7 @@ pub(crate) fn run(args: &ReportArgs) -> Result<(), Failure> {
         .map_err(failure)?;
     match place {
         Place::Page(file) => interrupt::publish(|| {
-            table_file::write(file, report.html.as_bytes())
-                .map_err(|error| cannot_write(file, &error))
+            single_file::write(file, report.html.as_bytes()).map_err(Failure::input)
         })?,
         Place::Folder(folder) => {
             let program = crate::program();
@@ -79,10 +79,6 @@ impl<'a> Place<'a> {
             Self::Folder(folder) => folder.join(PAGE_FILE),
         }
     }
-}
-
-fn cannot_write(file: &Path, error: &std::io::Error) -> Failure {
-    Failure::Input(anyhow!("cannot write {}: {error}", file.display()))
 }
 
 /// The folders under the names that were typed, each once.

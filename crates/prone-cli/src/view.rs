@@ -9,10 +9,11 @@ use std::process::{Command, Stdio};
 use anyhow::anyhow;
 
 use prone_record::recorded;
+use prone_record::single_file;
 use prone_report::view::{self, record};
 
 use crate::args::ViewArgs;
-use crate::{Failure, interrupt, record_folder, table_file};
+use crate::{Failure, interrupt, record_folder};
 
 /// What opens a page in the browser of the user's choice.
 const OPENER: &str = if cfg!(target_os = "macos") {
@@ -48,17 +49,14 @@ pub(crate) fn run(args: &ViewArgs) -> Result<(), Failure> {
         record_folder::check_place(&out, folder)?;
     }
     let page = view::page(&runs.iter().collect::<Vec<_>>()).map_err(Failure::work)?;
-    let name = out.display();
-    interrupt::publish(|| {
-        table_file::write(&out, page.as_bytes())
-            .map_err(|error| Failure::Input(anyhow!("cannot write {name}: {error}")))
-    })?;
+    interrupt::publish(|| single_file::write(&out, page.as_bytes()).map_err(Failure::input))?;
     if args.open {
         open(&out)?;
     }
     writeln!(
         std::io::stdout(),
-        "{name}: {} rows, {:.2} MB",
+        "{}: {} rows, {:.2} MB",
+        out.display(),
         runs.iter().map(record::Run::rows).sum::<usize>(),
         page.len() as f64 / 1e6
     )?;
@@ -101,7 +99,7 @@ fn check_place(out: &Path, folders: &[&Path]) -> Result<(), Failure> {
         .iter()
         .flat_map(|folder| recorded::FILES.map(|file| folder.join(file)));
     let inputs: Vec<PathBuf> = files.collect();
-    match table_file::same_file(out, &inputs) {
+    match single_file::same_file(out, &inputs) {
         None => Ok(()),
         Some(input) => Err(Failure::Input(anyhow!(
             "--out {} would overwrite {}, which was read",

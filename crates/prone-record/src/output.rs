@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
+use crate::real_path::NoRealPath;
 use earlier::Standing;
 use staging::Staging;
 use target::{Parents, Target};
@@ -138,6 +139,16 @@ pub fn without_hidden_name(error: &io::Error) -> io::Error {
     // So `tempfile` names the place.
     let reason = text.split(" at path ").next().unwrap_or_default();
     io::Error::new(error.kind(), reason)
+}
+
+impl From<NoRealPath> for OutputError {
+    fn from(error: NoRealPath) -> Self {
+        match error {
+            NoRealPath::Dangling { link } => Self::Dangling { link },
+            NoRealPath::Nameless { path } => Self::Nameless { folder: path },
+            NoRealPath::Unreadable { path, source } => Self::Write { path, source },
+        }
+    }
 }
 
 fn write_error(path: &Path, source: io::Error) -> OutputError {

@@ -8,9 +8,9 @@ pub mod compare;
 mod gauge;
 mod grid;
 mod job;
-mod journal;
+mod kept_row;
 pub mod plot;
 
 pub use grid::{MOST_ROWS, NodeGrid, NodeGridError};
 pub use job::{Job, JobError, Source};
-pub use journal::{Journal, JournalError, Opening};
+pub use kept_row::KeptRow;

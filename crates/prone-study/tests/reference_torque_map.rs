@@ -9,10 +9,11 @@ use std::path::PathBuf;
 use prone::torque_map::{RecordedMap, parse_recorded};
 use prone_files::shipped;
 use prone_record::program::Program;
+use prone_record::resumption::Opening;
 use prone_sim::{LoadedRobot, RobotFiles};
 use prone_study::torque_map::build::{self, Observer};
 use prone_study::torque_map::compare::{MaskCounts, compare};
-use prone_study::torque_map::{Job, NodeGrid, Opening, Source};
+use prone_study::torque_map::{Job, NodeGrid, Source};
 
 /// Largest median |difference|, N·m: what an independent prototype reached, rounded up.
 const MEDIANS: [f64; 4] = [0.05, 0.06, 0.09, 0.06];

@@ -12,12 +12,13 @@ use prone::regime::Regime;
 use prone_record::frontier::SettingKind;
 use prone_record::frontier::{Compared, Found, Frontier};
 use prone_record::output;
+use prone_record::resumption::Snapshot;
 use prone_record::search::{Search, SearchEnd};
 use prone_study::cycle_search::frontier;
 
 use super::files::{self, pretty};
 use super::{Job, Quest};
-use crate::checkpoint::Checkpoint;
+use crate::checkpoint::{self, suspended, unwritten};
 use crate::progress::SearchProgress;
 use crate::{Failure, interrupt};
 
@@ -30,16 +31,15 @@ pub(super) fn pursue(quest: &mut Quest<'_>) -> Result<(), Failure> {
         .build()
         .map_err(|error| Failure::Work(anyhow!("cannot start worker threads: {error}")))?;
     complete(quest);
-    let mut checkpoint = Checkpoint::beside(quest.out, quest.plan.clone());
+    let (mut checkpoint, earlier) = checkpoint::open(quest.out, &quest.plan, quest.resume)?;
     // Not part of what a checkpoint must agree with: a search may be given more.
     quest.plan["budget"] = json!(quest.budget);
-    let _lock = checkpoint.lock()?;
-    let mut searches = begin(quest, &checkpoint)?;
+    let mut searches = begin(quest, earlier)?;
     let started = Instant::now();
     pool.install(|| search(quest, &mut searches, &mut checkpoint))?;
     let (frontier, gaits) = pool.install(|| found(quest, &searches))?;
     if interrupt::requested() {
-        return Err(suspended(&checkpoint));
+        return Err(suspended(checkpoint.path()));
     }
     let mut artefacts = files::artefacts(quest, &frontier, &gaits, &searches)?;
     let timing = json!({
@@ -49,7 +49,7 @@ pub(super) fn pursue(quest: &mut Quest<'_>) -> Result<(), Failure> {
     artefacts.insert("timing.json".into(), pretty(&timing)?);
     interrupt::publish(|| {
         output::publish(quest.out, &artefacts).map_err(Failure::work)?;
-        checkpoint.remove()
+        checkpoint.remove().map_err(unwritten)
     })?;
     let mut out = std::io::stdout().lock();
     if quest.json {
@@ -75,37 +75,28 @@ fn complete(quest: &mut Quest<'_>) {
 }
 
 /// New searches, one a job, or those that were interrupted.
-fn begin(quest: &Quest<'_>, checkpoint: &Checkpoint) -> Result<Vec<Search>, Failure> {
-    if quest.resume {
-        if let Some(mut searches) = checkpoint.read::<Vec<Search>>()? {
-            if searches.len() != quest.jobs.len() {
-                return Err(Failure::Input(anyhow!(
-                    "{} is the checkpoint of another search; without --resume it is replaced",
-                    checkpoint.path().display()
-                )));
-            }
-            for search in &mut searches {
-                search.allow(quest.budget).map_err(Failure::input)?;
-            }
-            return Ok(searches);
-        }
-        // Where nobody listens, the work goes on.
-        let _ = writeln!(
-            std::io::stderr(),
-            "there is no {}: starting from the beginning",
-            checkpoint.path().display()
-        );
-    } else {
-        checkpoint.announce_replacement();
+fn begin(quest: &Quest<'_>, earlier: Option<Vec<Search>>) -> Result<Vec<Search>, Failure> {
+    let Some(mut searches) = earlier else {
+        let fresh = |_: &Job<'_>| Search::about_the_middle(quest.seed, quest.runs, quest.budget);
+        return Ok(quest.jobs.iter().map(fresh).collect());
+    };
+    if searches.len() != quest.jobs.len() {
+        return Err(Failure::Input(anyhow!(
+            "the checkpoint holds {} searches in place of {}; without --resume it is replaced",
+            searches.len(),
+            quest.jobs.len()
+        )));
     }
-    let fresh = |_: &Job<'_>| Search::about_the_middle(quest.seed, quest.runs, quest.budget);
-    Ok(quest.jobs.iter().map(fresh).collect())
+    for search in &mut searches {
+        search.allow(quest.budget).map_err(Failure::input)?;
+    }
+    Ok(searches)
 }
 
 fn search(
     quest: &Quest<'_>,
     searches: &mut Vec<Search>,
-    checkpoint: &mut Checkpoint,
+    checkpoint: &mut Snapshot<Vec<Search>>,
 ) -> Result<(), Failure> {
     for (index, job) in quest.jobs.iter().enumerate() {
         let mut search = searches[index].clone();
@@ -122,21 +113,14 @@ fn search(
             }
         });
         progress.finish();
-        kept?;
+        kept.map_err(unwritten)?;
         searches[index] = search;
-        checkpoint.write(searches)?;
+        checkpoint.write(searches).map_err(unwritten)?;
         if end == SearchEnd::Interrupted {
-            return Err(suspended(checkpoint));
+            return Err(suspended(checkpoint.path()));
         }
     }
     Ok(())
-}
-
-fn suspended(checkpoint: &Checkpoint) -> Failure {
-    Failure::Paused(format!(
-        "the search is kept in {}, and --resume goes on from there",
-        checkpoint.path().display()
-    ))
 }
 
 /// What each run found, confirmed, and the cycles under their names.

@@ -5,6 +5,7 @@ use std::path::Path;
 use anyhow::anyhow;
 
 use prone_record::recorded::Recorded;
+use prone_record::single_file;
 use prone_study::export::film::{Film, Interrupted, Shot, View};
 use prone_study::export::gif_film::{self, GifReel};
 use prone_study::export::webp_film::WebpReel;
@@ -13,7 +14,7 @@ use super::ffmpeg::Ffmpeg;
 use super::{cannot_write, origin};
 use crate::args::{ExportArgs, Format, ViewName};
 use crate::progress::FilmProgress;
-use crate::{Failure, interrupt, table_file};
+use crate::{Failure, interrupt};
 
 /// Unless said otherwise.
 const SIZE: (usize, usize) = (960, 540);
@@ -22,8 +23,7 @@ const FPS: f64 = 25.0;
 /// Films, writes, and says what.
 pub(super) fn run(args: &ExportArgs, record: &Recorded, out: &Path) -> Result<String, Failure> {
     let shot = shot(args, record)?;
-    table_file::check_place(out)
-        .map_err(|error| Failure::Input(anyhow!("cannot write {}: {error}", out.display())))?;
+    single_file::check_place(out).map_err(Failure::input)?;
     let robot = origin::robot(args, &record.run)?;
     let world = origin::world(&robot, record)?;
     let film = Film::new(&world, record, shot).map_err(Failure::input)?;
@@ -72,7 +72,7 @@ where
 }
 
 fn put(out: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    interrupt::publish(|| table_file::write(out, bytes).map_err(|error| cannot_write(out, &error)))
+    interrupt::publish(|| single_file::write(out, bytes).map_err(Failure::work))
 }
 
 fn shot(args: &ExportArgs, record: &Recorded) -> Result<Shot, Failure> {

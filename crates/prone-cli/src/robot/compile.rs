@@ -8,10 +8,11 @@ use serde_json::json;
 
 use prone_files::compiled_robot::{self, CompiledRobot, CompiledRobotError};
 use prone_files::text_file;
+use prone_record::single_file;
 use prone_sim::LoadedRobot;
 
 use crate::args::RobotCompileArgs;
-use crate::{Failure, robot, table_file};
+use crate::{Failure, robot};
 
 pub(crate) fn run(args: &RobotCompileArgs) -> Result<(), Failure> {
     let loaded = robot::load(args.robot.name())?;
@@ -23,8 +24,7 @@ pub(crate) fn run(args: &RobotCompileArgs) -> Result<(), Failure> {
             Failure::Input(anyhow!("{folder} cannot be compiled: {violation}"))
         })?;
     let text = compiled.text();
-    table_file::write(&out, text.as_bytes())
-        .map_err(|error| Failure::Input(anyhow!("cannot write {}: {error}", out.display())))?;
+    single_file::write(&out, text.as_bytes()).map_err(Failure::input)?;
     say(args, &out, &compiled)
 }
 
@@ -57,7 +57,7 @@ fn place(args: &RobotCompileArgs, loaded: &LoadedRobot) -> Result<PathBuf, Failu
         }
         None => Path::new(&files.folder).join(compiled_robot::FILE_NAME),
     };
-    if let Some(input) = table_file::same_file(&out, &files.read) {
+    if let Some(input) = single_file::same_file(&out, &files.read) {
         return Err(Failure::Input(anyhow!(
             "{} would overwrite {}, which was read",
             out.display(),
@@ -65,7 +65,7 @@ fn place(args: &RobotCompileArgs, loaded: &LoadedRobot) -> Result<PathBuf, Failu
         )));
     }
     let own = Path::new(&files.folder).join(compiled_robot::FILE_NAME);
-    let is_own = !files.read.is_empty() && table_file::same_file(&out, &[own]).is_some();
+    let is_own = !files.read.is_empty() && single_file::same_file(&out, &[own]).is_some();
     if !is_own && is_of_another_kind(&out)? {
         return Err(Failure::Input(anyhow!(
             "{} is there already and is no compiled robot: it is not overwritten",

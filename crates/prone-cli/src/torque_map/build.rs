@@ -5,13 +5,15 @@ use std::time::Instant;
 
 use anyhow::anyhow;
 
+use prone_record::resumption::{Opening, ResumptionError, Work};
+use prone_record::single_file;
 use prone_sim::LoadedRobot;
 use prone_study::torque_map::build::{self, BuildError, Built, Summary};
-use prone_study::torque_map::{Job, Journal, JournalError, NodeGrid, Opening, Source};
+use prone_study::torque_map::{Job, NodeGrid, Source};
 
 use crate::args::{BuildArgs, SourceArg};
 use crate::progress::RowProgress;
-use crate::{Failure, interrupt, table_file};
+use crate::{Failure, interrupt};
 
 pub(super) fn run(args: &BuildArgs) -> Result<(), Failure> {
     let grid = NodeGrid::new(args.step_deg, args.theta4_max_deg).map_err(Failure::input)?;
@@ -33,10 +35,10 @@ pub(super) fn run(args: &BuildArgs) -> Result<(), Failure> {
         Opening::Resume
     };
 
-    let journal = Journal::beside(&args.out);
+    let journal = Work::TorqueMap.beside(&args.out);
     let progress = RowProgress::new(job.rows(), journal.clone())?;
     let started = Instant::now();
-    let built = pool.install(|| build::run(&job, &journal, opening, &progress));
+    let built = pool.install(|| build::run(&job, &args.out, opening, &progress));
     progress.finish();
     let built = built.map_err(|error| failure(error, &journal))?;
     let wall_s = started.elapsed().as_secs_f64();
@@ -59,9 +61,8 @@ pub(super) fn run(args: &BuildArgs) -> Result<(), Failure> {
 /// Refuses a place where the map cannot go, before the work.
 fn check_place(args: &BuildArgs, robot: &LoadedRobot) -> Result<(), Failure> {
     let out = args.out.display();
-    table_file::check_place(&args.out)
-        .map_err(|error| Failure::Input(anyhow!("cannot write {out}: {error}")))?;
-    match table_file::same_file(&args.out, &robot.files().read) {
+    single_file::check_place(&args.out).map_err(Failure::input)?;
+    match single_file::same_file(&args.out, &robot.files().read) {
         None => Ok(()),
         Some(input) => Err(Failure::Input(anyhow!(
             "--out {out} would overwrite {}, which was read",
@@ -80,15 +81,10 @@ fn publish(args: &BuildArgs, built: Built) -> Result<Summary, Failure> {
     let rows = summary.rows;
     let kept = journal.path().to_owned();
     let done = interrupt::publish(|| {
-        table_file::write(&args.out, text.as_bytes()).map_err(|error| {
-            let (out, kept) = (args.out.display(), kept.display());
-            Failure::Work(anyhow!(
-                "cannot write {out}: {error}; all rows are in {kept}"
-            ))
+        single_file::write(&args.out, text.as_bytes()).map_err(|error| {
+            Failure::Work(anyhow!("{error}; all rows are in {}", kept.display()))
         })?;
-        journal
-            .remove()
-            .map_err(|error| Failure::Work(anyhow!("cannot remove {}: {error}", kept.display())))
+        journal.remove().map_err(Failure::work)
     });
     match done {
         Err(Failure::Stopped) => Err(paused(rows, rows, &kept)),
@@ -107,7 +103,7 @@ fn failure(error: BuildError, journal: &std::path::Path) -> Failure {
     match error {
         BuildError::Stopped { kept: 0, .. } => Failure::Stopped,
         BuildError::Stopped { kept, rows } => paused(kept, rows, journal),
-        BuildError::Grid(_) | BuildError::Journal(JournalError::Write { .. }) => {
+        BuildError::Grid(_) | BuildError::Journal(ResumptionError::Write(_)) => {
             Failure::work(error)
         }
         BuildError::Symmetry(_) | BuildError::World(_) | BuildError::Journal(_) => {

@@ -7,13 +7,14 @@ use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use rustix::fs::{CWD, FlockOperation, RenameFlags, flock, renameat_with};
+use rustix::fs::{CWD, RenameFlags, renameat_with};
 use rustix::io::Errno;
 use tempfile::TempDir;
 
 use super::earlier::{Standing, standing};
 use super::target::Target;
 use super::{Artefacts, OutputError, RUN_FILE, without_hidden_name, write_error};
+use crate::lock::try_exclusive;
 
 /// How often another run may be faster before this one gives up.
 const ATTEMPTS: usize = 100;
@@ -53,7 +54,9 @@ fn remove_abandoned(folder: &Path) -> io::Result<()> {
         return Ok(());
     }
     let lock = File::open(folder)?;
-    flock(&lock, FlockOperation::NonBlockingLockExclusive)?;
+    if !try_exclusive(&lock)? {
+        return Ok(());
+    }
     for entry in fs::read_dir(folder)? {
         let entry = entry?;
         // Whatever is in there must be ours, as in the target itself.
@@ -85,9 +88,9 @@ impl Staging {
             let Ok(lock) = File::open(folder.path()) else {
                 continue;
             };
-            let locked = flock(&lock, FlockOperation::NonBlockingLockExclusive);
+            let locked = try_exclusive(&lock);
             // A file system without locks: then nothing is removed there either.
-            if locked != Err(Errno::WOULDBLOCK) && folder.path().exists() {
+            if !matches!(locked, Ok(false)) && folder.path().exists() {
                 return Ok(Self {
                     folder,
                     _lock: lock,

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use rustix::fs::{Access, AtFlags, CWD, StatxAttributes, StatxFlags};
 
 use super::{OutputError, write_error};
+use crate::real_path::real_path;
 
 /// A place for a result: absolute, without links, with a folder above it.
 #[derive(Debug)]
@@ -56,36 +57,6 @@ impl Target {
         }
         rustix::fs::access(&self.folder, Access::WRITE_OK | Access::EXEC_OK)
             .map_err(|source| error(source.into()))
-    }
-}
-
-/// A path without links; what does not exist yet is appended to what does.
-fn real_path(given: &Path) -> Result<PathBuf, OutputError> {
-    let given = if given.as_os_str().is_empty() {
-        Path::new(".")
-    } else {
-        given
-    };
-    match fs::symlink_metadata(given) {
-        Ok(found) => fs::canonicalize(given).map_err(|source| {
-            if found.is_symlink() && source.kind() == io::ErrorKind::NotFound {
-                OutputError::Dangling {
-                    link: given.to_owned(),
-                }
-            } else {
-                write_error(given, source)
-            }
-        }),
-        Err(source) if source.kind() == io::ErrorKind::NotFound => {
-            match (given.parent(), given.file_name()) {
-                (Some(parent), Some(name)) => Ok(real_path(parent)?.join(name)),
-                // `..` below a folder that does not exist.
-                _ => Err(OutputError::Nameless {
-                    folder: given.to_owned(),
-                }),
-            }
-        }
-        Err(source) => Err(write_error(given, source)),
     }
 }
 

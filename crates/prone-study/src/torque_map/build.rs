@@ -8,12 +8,13 @@ use serde::Serialize;
 
 use prone::statics::{Stance, StaticTorques, SupportRule, SymmetryError};
 use prone::torque_map::{self, GridError, Mask, RecordedMap, Row, TorqueMap};
+use prone_record::resumption::{Journal, Opening, ResumptionError, Work};
 use prone_sim::settled::SettledTorques;
 use prone_sim::{World, WorldError};
 
 use super::gauge::{self, Entry, Gauge, SettledGauge, StaticGauge};
 use super::job::REGIME;
-use super::{Job, Journal, JournalError, Opening, Source};
+use super::{Job, KeptRow, Source};
 
 /// Is told how a build goes, from many threads.
 pub trait Observer: Sync {
@@ -33,7 +34,7 @@ pub struct Built {
     /// What is in it.
     pub summary: Summary,
     /// To be removed once the file is in place.
-    pub journal: Journal,
+    pub journal: Journal<KeptRow>,
 }
 
 /// What is in a map.
@@ -62,7 +63,7 @@ pub enum BuildError {
     World(#[from] WorldError),
     /// The journal cannot be used.
     #[error(transparent)]
-    Journal(#[from] JournalError),
+    Journal(#[from] ResumptionError),
     /// The rows do not fill the grid.
     #[error(transparent)]
     Grid(#[from] GridError),
@@ -76,21 +77,21 @@ pub enum BuildError {
     },
 }
 
-/// Builds a map on the current rayon pool. Its text depends on the job alone, not on threads or on
-/// what the journal held.
+/// Builds a map on the current rayon pool, to be put at `out`, beside which its journal is. Its text
+/// depends on the job alone, not on threads or on what the journal held.
 ///
 /// # Errors
 /// [`BuildError`]; rows that were measured are then in the journal.
 pub fn run(
     job: &Job<'_>,
-    journal: &Path,
+    out: &Path,
     opening: Opening,
     observer: &dyn Observer,
 ) -> Result<Built, BuildError> {
     let robot = job.robot.robot();
     let mapping = job.mapping.clone();
     // The journal is opened last: what cannot be measured leaves none.
-    let open = || Journal::open(journal, &job.identity(), job.rows(), opening);
+    let open = || open(job, out, opening);
     let (entries, journal) = match job.source {
         Source::Statics => {
             let stance = Stance::unsqueezed(SupportRule::AnyShape);
@@ -125,18 +126,34 @@ pub fn run(
     })
 }
 
+/// The journal of a map, and the rows that it holds, in the grid's order.
+fn open(
+    job: &Job<'_>,
+    out: &Path,
+    opening: Opening,
+) -> Result<(Journal<KeptRow>, Vec<Option<Entry>>), ResumptionError> {
+    let (journal, kept) = Journal::<KeptRow>::open(Work::TorqueMap, out, &job.identity(), opening)?;
+    let mut entries = vec![None; job.rows()];
+    for (line, row) in kept.iter().enumerate() {
+        let (index, entry) = row.entry();
+        let place = entries.get_mut(index);
+        *place.ok_or_else(|| journal.impossible(line, row))? = Some(entry);
+    }
+    Ok((journal, entries))
+}
+
 /// Entries in the grid's order: those of the journal, and measured ones for the rest.
 fn measure(
     job: &Job<'_>,
     gauge: &impl Gauge,
-    (journal, mut entries): (Journal, Vec<Option<Entry>>),
+    (journal, mut entries): (Journal<KeptRow>, Vec<Option<Entry>>),
     observer: &dyn Observer,
-) -> Result<(Vec<Entry>, Journal), BuildError> {
+) -> Result<(Vec<Entry>, Journal<KeptRow>), BuildError> {
     let rows = job.rows();
     let missing: Vec<usize> = (0..rows).filter(|row| entries[*row].is_none()).collect();
     observer.taken_over(rows - missing.len());
     let journal = Mutex::new(journal);
-    let measured: Result<Vec<Option<(usize, Entry)>>, JournalError> = missing
+    let measured: Result<Vec<Option<(usize, Entry)>>, ResumptionError> = missing
         .par_iter()
         .with_max_len(1)
         .map(|&row| {
@@ -145,7 +162,7 @@ fn measure(
             }
             let entry = gauge::entry(gauge, job.grid.grid().node(row));
             let mut journal = journal.lock().unwrap_or_else(PoisonError::into_inner);
-            journal.append(row, &entry)?;
+            journal.append(&KeptRow::new(row, &entry))?;
             drop(journal);
             observer.row_done();
             Ok(Some((row, entry)))

@@ -65,12 +65,13 @@ fn on_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
 #[test]
 fn identity_a_stopped_build_goes_on_and_its_bytes_are_the_same() {
     let home = tempfile::tempdir().unwrap();
-    let path = home.path().join("map.csv.partial");
+    let out = home.path().join("map.csv");
+    let path = Work::TorqueMap.beside(&out);
     let robot = nao();
     let job = job(&robot);
     let build = |threads, stop_after, opening| {
         let watch = Watch::until(stop_after);
-        let built = on_threads(threads, || run(&job, &path, opening, &watch));
+        let built = on_threads(threads, || run(&job, &out, opening, &watch));
         (
             built,
             watch.taken_over.into_inner(),

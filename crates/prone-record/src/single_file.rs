@@ -1,17 +1,48 @@
-//! Writing a table where the user says.
+//! Writing one file where the user says: whole or not at all.
 
 use std::fs::{self, OpenOptions, Permissions};
 use std::io::{self, Write as _};
 use std::os::unix::fs::{MetadataExt as _, PermissionsExt as _};
 use std::path::{Path, PathBuf};
 
-use prone_record::output;
+use crate::output;
 
 /// Mode of a new file, before the user's mask.
 const NEW_FILE: u32 = 0o666;
 
+/// A file that is not there as it should be; an earlier one is as it was.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot write {}: {source}", path.display())]
+pub struct WriteError {
+    /// The file, as it was named.
+    pub path: PathBuf,
+    /// Why.
+    pub source: io::Error,
+}
+
 /// Writes to `path`: a regular file whole or not at all, a device or a pipe directly.
-pub(crate) fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
+///
+/// # Errors
+/// [`WriteError`].
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
+    put(path, bytes).map_err(named(path))
+}
+
+/// Whether a file that takes long to make can be put at `path`, whole: only a regular file, which may
+/// be written, or nothing may stand there.
+///
+/// # Errors
+/// [`WriteError`].
+pub fn check_place(path: &Path) -> Result<(), WriteError> {
+    look(path).map_err(named(path))
+}
+
+fn named(path: &Path) -> impl FnOnce(io::Error) -> WriteError {
+    let path = path.to_owned();
+    |source| WriteError { path, source }
+}
+
+fn put(path: &Path, bytes: &[u8]) -> io::Result<()> {
     match fs::metadata(path) {
         Ok(found) if found.is_file() => {
             // A file that may not be written is not replaced either.
@@ -28,9 +59,7 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
     }
 }
 
-/// Whether a file that takes long to make can be put at `path`, whole: only a regular file, which may
-/// be written, or nothing may stand there.
-pub(crate) fn check_place(path: &Path) -> io::Result<()> {
+fn look(path: &Path) -> io::Result<()> {
     match fs::metadata(path) {
         Ok(found) if found.is_file() => OpenOptions::new().write(true).open(path).map(drop),
         Ok(_) => Err(io::Error::other("it is not a regular file")),
@@ -55,7 +84,8 @@ fn replace(path: &Path, bytes: &[u8], mode: u32) -> io::Result<()> {
         .permissions(Permissions::from_mode(NEW_FILE))
         .tempfile_in(folder)
         .map_err(|error| output::without_hidden_name(&error))?;
-    file.write_all(bytes)?;
+    // Past `tempfile`, whose errors name the hidden file.
+    file.as_file_mut().write_all(bytes)?;
     if mode != NEW_FILE {
         fs::set_permissions(file.path(), Permissions::from_mode(mode & 0o7777))?;
     }
@@ -66,7 +96,7 @@ fn replace(path: &Path, bytes: &[u8], mode: u32) -> io::Result<()> {
 }
 
 /// The one of `inputs` that is the same file as `path`, by whatever name or link.
-pub(crate) fn same_file<'a>(path: &Path, inputs: &'a [PathBuf]) -> Option<&'a Path> {
+pub fn same_file<'a>(path: &Path, inputs: &'a [PathBuf]) -> Option<&'a Path> {
     let identity = |path: &Path| fs::metadata(path).map(|found| (found.dev(), found.ino()));
     let written = identity(path).ok()?;
     let mut inputs = inputs.iter().map(PathBuf::as_path);
