@@ -186,6 +186,7 @@ fn records_are_the_same_on_any_number_of_threads_and_replace_each_other() {
             "figures.json",
             "model.json",
             "plate-contacts.csv",
+            "robot.compiled.json",
             "rows.csv",
             "run.json",
             "summary.json",
