@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use prone::regime::{CONTROL_STEP, Effort, SOLIMP, SOLREF, Stops, TIME_STEP};
 use prone_record::curves_info::CurvesInfo;
+use prone_record::head::Head;
 use prone_record::program::{Program, RobotInfo};
 use prone_sim::{LoadedRobot, World};
 
@@ -14,11 +15,8 @@ use crate::torque_study::Plan;
 /// What was run, for `run.json` and the report.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct RunInfo {
-    pub(crate) program: Cow<'static, str>,
     #[serde(flatten)]
-    pub(crate) built: Program,
-    pub(crate) command: Cow<'static, str>,
-    pub(crate) engine: String,
+    pub(crate) head: Head,
     pub(crate) robot: RobotInfo,
     pub(crate) options: Options,
 }
@@ -80,10 +78,11 @@ impl RunInfo {
             format!("{name} {} to {} rad", range.lower, range.upper)
         });
         Self {
-            program: "prone".into(),
-            built: program.clone(),
-            command: "reproduce".into(),
-            engine: prone_sim::engine_version(),
+            head: Head::new(
+                program,
+                "reproduce".to_owned(),
+                Some(prone_sim::engine_version()),
+            ),
             robot: RobotInfo::of(robot.robot(), robot.files()),
             options: Options {
                 gaits: plan
