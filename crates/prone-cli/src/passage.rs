@@ -56,7 +56,7 @@ pub(crate) fn run(args: &UnderArgs) -> Result<(), Failure> {
     let (ceiling, margin) = (args.ceiling_mm * 1e-3, args.margin_mm * 1e-3);
     if margin >= ceiling {
         return Err(Failure::Input(anyhow!(
-            "a margin of {} mm leaves nothing of a ceiling of {} mm",
+            "--margin-mm {} must be smaller than --ceiling-mm {}",
             args.margin_mm,
             args.ceiling_mm
         )));

@@ -55,7 +55,7 @@ pub struct CrawlSummary {
     pub recovery_body_share: f64,
     /// Largest actuator torque over the manufacturer's effort limit.
     pub peak_torque_over_rated: f64,
-    /// Whose that is.
+    /// Joint in which `peak_torque_over_rated` was reached.
     pub peak_torque_joint: String,
     /// Largest torque that a servo of a shoulder's pitch demanded, before its limit, N·m.
     pub demanded_peak_shoulder_nm: f64,
@@ -69,11 +69,11 @@ pub struct CrawlSummary {
     pub saturated_joint: Option<String>,
     /// ∫ Σ (τ / nominal torque)² dt, s.
     pub heat_s: f64,
-    /// The same per metre of path, s/m; nothing where it did not come forward.
+    /// Heat per metre of path, s/m; `None` if the crawl made no progress.
     pub heat_per_metre_s: Option<f64>,
     /// Positive mechanical work of the motors, J.
     pub work_j: f64,
-    /// That work over weight times path; nothing where it did not come forward.
+    /// Positive work of the motors over weight times path; `None` if the crawl made no progress.
     pub cost_of_transport: Option<f64>,
     /// What the windings of the motors lost, J: an estimate; nothing where a motor is not known.
     pub winding_loss_j: Option<f64>,

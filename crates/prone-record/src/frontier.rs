@@ -143,7 +143,7 @@ pub struct ConfirmedSetting {
     pub heat_per_metre_s: Option<f64>,
     /// Largest actuator torque over the manufacturer's effort limit.
     pub peak_torque_over_rated: Option<f64>,
-    /// Whose.
+    /// Joint in which `peak_torque_over_rated` was reached.
     pub peak_joint: Option<String>,
     /// Largest torque that a shoulder's servo demands, before the effort limit, N·m.
     pub demanded_shoulder_nm: Option<f64>,

@@ -8,6 +8,7 @@ use serde_json::json;
 use super::*;
 
 type Part = (usize, [f64; 2]);
+type State = Vec<u64>;
 
 fn plan(source: &str) -> BTreeMap<&'static str, String> {
     BTreeMap::from([("source", source.to_owned()), ("robot", "é".to_owned())])
@@ -21,7 +22,7 @@ fn snapshot(
     result: &Path,
     plan: &Value,
     opening: Opening,
-) -> Result<(Snapshot<Vec<u64>>, Earlier<Vec<u64>>), ResumptionError> {
+) -> Result<(Snapshot<State>, Earlier<State>), ResumptionError> {
     Snapshot::open(Work::Search, result, plan, opening)
 }
 
@@ -30,7 +31,7 @@ fn refusal<T>(refused: Result<T, ResumptionError>, home: &Path) -> String {
     refused.replace(&home.display().to_string(), "home")
 }
 
-/// A part, and whether it was taken over.
+/// A part whose numbers have many digits.
 fn part(index: usize) -> Part {
     (index, [1.0 / (index as f64 + 3.0), -0.0])
 }
