@@ -22,6 +22,7 @@ mod record_folder;
 mod report;
 mod reproduce;
 mod robot;
+mod search;
 mod table_file;
 mod torque_map;
 mod view;

@@ -27,19 +27,6 @@ pub(crate) fn load(name: Option<&Path>) -> Result<LoadedRobot, Failure> {
     LoadedRobot::load(files).map_err(Failure::input)
 }
 
-/// What a search says of its robot.
-pub(crate) fn said(robot: &LoadedRobot) -> Value {
-    let files = robot.files();
-    let version = files.version.as_ref();
-    json!({
-        "name": robot.robot().name,
-        "family": version.map(|version| &version.family),
-        "version": version.map(|version| &version.version),
-        "folder": files.folder,
-        "sha256": files.hash(),
-    })
-}
-
 pub(crate) fn check(args: &RobotCheckArgs) -> Result<(), Failure> {
     let loaded = load(args.robot.name())?;
     for regime in [Regime::TORQUE_STUDY, Regime::LOCOMOTION] {

@@ -15,5 +15,6 @@ pub mod program;
 pub mod pulls;
 pub mod recorded;
 pub mod search;
+pub mod search_plan;
 pub mod statistics;
 pub mod tables;

@@ -39,7 +39,7 @@ fn table_mapping(robot: &Robot) -> Mapping {
     Mapping::new(robot, MappingVariant::Original, ArmMode::Fixed).unwrap()
 }
 
-fn table_statics(robot: &Robot) -> StaticTorques<'_> {
+fn table_statics(robot: &Robot) -> StaticTorques<&Robot> {
     let stance = Stance::unsqueezed(SupportRule::AnyShape);
     StaticTorques::new(robot, table_mapping(robot), &robot.study_stops(), stance).unwrap()
 }

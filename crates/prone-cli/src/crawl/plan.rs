@@ -13,7 +13,7 @@ use prone_files::{scene_file, shipped, text_file};
 use prone_sim::crawl::{CrawlError, End, LimbsError, check_limbs};
 use prone_sim::{LoadedRobot, World};
 use prone_study::crawl::{Conditions, GaitSource, PastObstacles};
-use prone_study::cycle_search::settings::offsets;
+use prone_study::search::settings::offsets;
 
 use crate::Failure;
 use crate::args::{CrawlRunArgs, ServoName, TimeStepName};

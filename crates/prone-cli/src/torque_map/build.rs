@@ -10,7 +10,7 @@ use prone_study::torque_map::build::{self, BuildError, Built, Summary};
 use prone_study::torque_map::{Job, Journal, JournalError, NodeGrid, Opening, Source};
 
 use crate::args::{BuildArgs, SourceArg};
-use crate::progress::RowProgress;
+use crate::progress::Progress;
 use crate::{Failure, interrupt, table_file};
 
 pub(super) fn run(args: &BuildArgs) -> Result<(), Failure> {
@@ -34,7 +34,7 @@ pub(super) fn run(args: &BuildArgs) -> Result<(), Failure> {
     };
 
     let journal = Journal::beside(&args.out);
-    let progress = RowProgress::new(job.rows(), journal.clone())?;
+    let progress = Progress::measuring(job.rows(), journal.clone())?;
     let started = Instant::now();
     let built = pool.install(|| build::run(&job, &journal, opening, &progress));
     progress.finish();

@@ -6,6 +6,7 @@ use std::sync::{Mutex, PoisonError};
 use rayon::prelude::*;
 use serde::Serialize;
 
+use prone::robot::Robot;
 use prone::statics::{Stance, StaticTorques, SupportRule, SymmetryError};
 use prone::torque_map::{self, GridError, Mask, RecordedMap, Row, TorqueMap};
 use prone_sim::settled::SettledTorques;
@@ -13,17 +14,9 @@ use prone_sim::{World, WorldError};
 
 use super::gauge::{self, Entry, Gauge, SettledGauge, StaticGauge};
 use super::job::REGIME;
-use super::{Job, Journal, JournalError, Opening, Source};
+use crate::watch::{Progress, Watch};
 
-/// Is told how a build goes, from many threads.
-pub trait Observer: Sync {
-    /// An earlier build left that many rows.
-    fn taken_over(&self, rows: usize);
-    /// One more row has been measured.
-    fn row_done(&self);
-    /// Whether to begin no further row.
-    fn stop(&self) -> bool;
-}
+use super::{Job, Journal, JournalError, Opening, Source};
 
 /// A map, ready to be put in place.
 #[derive(Debug)]
@@ -85,9 +78,9 @@ pub fn run(
     job: &Job<'_>,
     journal: &Path,
     opening: Opening,
-    observer: &dyn Observer,
+    watch: &dyn Watch,
 ) -> Result<Built, BuildError> {
-    let robot = job.robot.robot();
+    let robot: &Robot = job.robot.robot();
     let mapping = job.mapping.clone();
     // The journal is opened last: what cannot be measured leaves none.
     let open = || Journal::open(journal, &job.identity(), job.rows(), opening);
@@ -95,7 +88,7 @@ pub fn run(
         Source::Statics => {
             let stance = Stance::unsqueezed(SupportRule::AnyShape);
             let source = StaticTorques::new(robot, mapping, &robot.study_stops(), stance)?;
-            measure(job, &StaticGauge { robot, source }, open()?, observer)?
+            measure(job, &StaticGauge { robot, source }, open()?, watch)?
         }
         Source::Simulation => {
             let world = World::new(job.robot, REGIME)?;
@@ -104,7 +97,7 @@ pub fn run(
                 world: &world,
                 source,
             };
-            measure(job, &gauge, open()?, observer)?
+            measure(job, &gauge, open()?, watch)?
         }
     };
     let recorded = recorded(job, &entries)?;
@@ -130,24 +123,24 @@ fn measure(
     job: &Job<'_>,
     gauge: &impl Gauge,
     (journal, mut entries): (Journal, Vec<Option<Entry>>),
-    observer: &dyn Observer,
+    watch: &dyn Watch,
 ) -> Result<(Vec<Entry>, Journal), BuildError> {
     let rows = job.rows();
     let missing: Vec<usize> = (0..rows).filter(|row| entries[*row].is_none()).collect();
-    observer.taken_over(rows - missing.len());
+    watch.progress(&Progress::TakenOver(rows - missing.len()));
     let journal = Mutex::new(journal);
     let measured: Result<Vec<Option<(usize, Entry)>>, JournalError> = missing
         .par_iter()
         .with_max_len(1)
         .map(|&row| {
-            if observer.stop() {
+            if watch.stop() {
                 return Ok(None);
             }
             let entry = gauge::entry(gauge, job.grid.grid().node(row));
             let mut journal = journal.lock().unwrap_or_else(PoisonError::into_inner);
             journal.append(row, &entry)?;
             drop(journal);
-            observer.row_done();
+            watch.progress(&Progress::Done(1));
             Ok(Some((row, entry)))
         })
         .collect();
