@@ -7,7 +7,6 @@ use std::path::Path;
 
 use anyhow::anyhow;
 use serde::Serialize;
-use serde_json::{Value, json};
 
 use prone::regime::Regime;
 use prone_files::compiled_robot::CompiledRobotError;

@@ -47,7 +47,7 @@ impl CycleObjective {
 }
 
 /// All searches of a frontier.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Frontier {
     /// What was searched.
     pub objective: CycleObjective,
@@ -60,7 +60,7 @@ pub struct Frontier {
 }
 
 /// Another cycle in the settings of a confirmation.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Compared {
     /// Its name.
     pub gait: String,
@@ -69,7 +69,7 @@ pub struct Compared {
 }
 
 /// What one search found.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Found {
     /// The ceiling, mm, where there is one.
     pub ceiling_mm: Option<f64>,
@@ -84,7 +84,7 @@ pub struct Found {
     /// What it breaks of the rules of the search, in shares of their limits.
     pub violation: f64,
     /// The rules that are broken.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub broken: Vec<Broken>,
     /// Why it could not be crawled in the settings of the search, where it could not.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -1,6 +1,8 @@
 //! What a search of pulls leaves behind: `result.json`, `history.csv`, `confirmation.csv`.
 
-use serde::Serialize;
+use std::borrow::Cow;
+
+use serde::{Deserialize, Serialize};
 
 use crate::curves_info::CurvesInfo;
 use crate::search::Search;
@@ -79,10 +81,10 @@ pub struct Priced {
 }
 
 /// A broken rule.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Broken {
     /// Its name.
-    pub rule: &'static str,
+    pub rule: Cow<'static, str>,
     /// How often.
     pub count: u32,
     /// By how much in all, shares of the limit; for `published` the count once more.

@@ -43,6 +43,7 @@ use drawn_run::DrawnRun;
 use folder::Given;
 use prone_record::output::{Artefacts, RUN_FILE, json};
 use prone_record::program::Program;
+use prone_record::search_plan::SearchPlan;
 use search_run::SearchRun;
 use shown::Shown;
 
@@ -279,11 +280,14 @@ fn read(
     let run = match folder.command.as_str() {
         "crawl run" | "reproduce crawl" => Run::Crawl(Box::new(CrawlRun::read(folder)?)),
         "reproduce pull" => Run::Pull(Box::new(PullRun::read(folder)?)),
-        "optimize" if folder.said("/source").as_deref() == Some("cycle") => {
-            Run::Drawn(Box::new(DrawnRun::cycles(folder)?))
-        }
-        "optimize" => Run::Search(Box::new(SearchRun::read(folder)?)),
-        "crawl frontier" => Run::Drawn(Box::new(DrawnRun::cycles(folder)?)),
+        "optimize" | "crawl frontier" => match folder.run()? {
+            SearchPlan::Pull(plan) => Run::Search(Box::new(SearchRun::read(folder, &plan)?)),
+            SearchPlan::Cycle(plan) => {
+                let heats_over = plan.worst_over.as_deref();
+                Run::Drawn(Box::new(DrawnRun::cycles(folder, heats_over)?))
+            }
+            SearchPlan::Frontier(_) => Run::Drawn(Box::new(DrawnRun::cycles(folder, None)?)),
+        },
         "torque-map plot" => Run::Drawn(Box::new(DrawnRun::map(folder)?)),
         other => {
             return Err(ReportError::OtherCommand {

@@ -129,7 +129,7 @@ impl Cost {
                     broken.sum += sum;
                 }
                 None => self.broken.push(Broken {
-                    rule,
+                    rule: rule.into(),
                     count: 1,
                     sum,
                 }),

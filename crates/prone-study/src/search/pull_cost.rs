@@ -23,7 +23,7 @@ use prone::torque_map::{TorqueMap, TorqueSource};
 use prone_optim::{Failure, Interval, Problem as _, Score};
 use prone_record::gait_search::{Broken, Priced};
 use prone_sim::World;
-use prone_sim::pull::{self, Keep, PullError, Start};
+use prone_sim::pull::{self, Keep, Pull, PullError, Start};
 
 use super::candidates::{Candidates, Cost, Depth, PointError, Refusal};
 use super::chain_rules::{self, ChainRules, Clearance, phase, samples};
@@ -288,9 +288,24 @@ impl PullCosts {
                     {
                         unsimulated(broken, None)
                     }
-                    Torques::Simulated(begun) => self.simulated(gait, begun, mapping, norm, broken),
+                    Torques::Simulated(_) => self.simulated(gait, mapping, norm, broken),
                 }
             }
+        }
+    }
+
+    /// The simulated pull of a gait, whatever rules it breaks.
+    ///
+    /// # Errors
+    /// [`PullError`].
+    pub fn pull(&self, gait: &Gait) -> Result<Pull, PullError> {
+        let (world, duration) = (&self.world, self.terms.duration);
+        match &self.method {
+            Method::Graded {
+                torques: Torques::Simulated(begun),
+                ..
+            } => begun.pull(world, gait, duration),
+            _ => pull::run(world, gait, duration, Start::FirstPose, Keep::Rows),
         }
     }
 
@@ -322,14 +337,13 @@ impl PullCosts {
     fn simulated(
         &self,
         gait: &Gait,
-        begun: &Begun,
         mapping: &Mapping,
         norm: &Norm,
         mut violations: Violations,
     ) -> Cost {
         let terms = &self.terms;
         let trial = || {
-            let pull = begun.pull(&self.world, gait, terms.duration)?;
+            let pull = self.pull(gait)?;
             let torque = pull_trial::torque_part(self.world.robot(), &pull, norm)?;
             Ok::<_, PullTrialError>((torque, pull_trial::body_share(&pull)))
         };
@@ -431,7 +445,7 @@ fn published_cost(objective: &PublishedObjective, gait: &Gait) -> Cost {
     ];
     let broken = counts.into_iter().filter(|(_, count)| *count > 0);
     let broken = broken.map(|(rule, count)| Broken {
-        rule,
+        rule: rule.into(),
         count,
         sum: f64::from(count),
     });
@@ -445,7 +459,7 @@ fn published_cost(objective: &PublishedObjective, gait: &Gait) -> Cost {
 
 fn graded_cost(torque: f64, violations: &Violations, refusal: Option<Refusal>) -> Cost {
     let broken = violations.iter().map(|(rule, excess)| Broken {
-        rule: rule.name(),
+        rule: rule.name().into(),
         count: excess.count,
         sum: excess.sum,
     });

@@ -167,7 +167,8 @@ fn identity_rows_are_what_the_sources_say() {
             let stance = Stance::unsqueezed(SupportRule::AnyShape);
             let stops = robot.robot().study_stops();
             let statics =
-                StaticTorques::new(robot.robot(), job.mapping.clone(), &stops, stance).unwrap();
+                StaticTorques::new(robot.robot().as_ref(), job.mapping.clone(), &stops, stance)
+                    .unwrap();
             let expected = match source {
                 Source::Statics => torque_map::row_of(&statics, at),
                 Source::Simulation => torque_map::row_of(&settled, at),
