@@ -18,7 +18,7 @@ use crate::search::{Search, Solver};
 #[serde(untagged)]
 pub enum SearchPlan {
     /// `prone optimize` over pulls.
-    Pull(PullPlan),
+    Pull(Box<PullPlan>),
     /// `prone optimize` over whole cycles.
     Cycle(CyclePlan),
     /// `prone crawl frontier`: cycles under several ceilings.
@@ -33,7 +33,7 @@ impl<'de> Deserialize<'de> for SearchPlan {
         let read = match (word("command").as_deref(), word("source").as_deref()) {
             (Some("crawl frontier"), _) => serde_json::from_value(plan).map(Self::Frontier),
             (_, Some("cycle")) => serde_json::from_value(plan).map(Self::Cycle),
-            _ => serde_json::from_value(plan).map(Self::Pull),
+            _ => serde_json::from_value(plan).map(|plan| Self::Pull(Box::new(plan))),
         };
         read.map_err(D::Error::custom)
     }

@@ -167,8 +167,8 @@ mod tests {
     fn limit_an_unknown_value_never_wins() {
         let score = |violation, value| {
             let cost = Cost {
-                violation,
                 value,
+                violation,
                 ..Cost::default()
             };
             cost.score()

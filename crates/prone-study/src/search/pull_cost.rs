@@ -116,7 +116,7 @@ enum Method {
         problem: Box<PublishedProblem>,
     },
     Graded {
-        mapping: Mapping,
+        mapping: Box<Mapping>,
         norm: Norm,
         torques: Torques,
     },
@@ -240,7 +240,7 @@ impl PullCosts {
             }
             PullAim::Graded(objective) => Method::Graded {
                 norm: objective.norm(robot)?,
-                mapping: Mapping::new(robot, base.mapping, base.arm)?,
+                mapping: Box::new(Mapping::new(robot, base.mapping, base.arm)?),
                 torques: match &terms.source {
                     Source::Map { map, .. } => Torques::Map(Arc::clone(map)),
                     Source::Statics => Torques::Statics(Box::new(statics(world, base)?)),

@@ -76,14 +76,14 @@ impl PullRun {
             base.name.clone(),
             text_file::sha256(&[&gait_file::write(base, "")]),
         );
-        let plan = SearchPlan::Pull(PullPlan {
+        let plan = SearchPlan::Pull(Box::new(PullPlan {
             head,
             pricing: cost_plan(&costs, robot),
             form: form.form().to_string(),
             ends: form.ends().name().to_owned(),
             name: name.clone(),
             confirm_durations_s: durations.iter().map(|it| it.seconds()).collect(),
-        });
+        }));
         let worlds = [
             costs.world().clone(),
             World::new(robot, Regime::LOCOMOTION)?,
