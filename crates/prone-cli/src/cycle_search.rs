@@ -4,11 +4,13 @@ use std::io::Write;
 
 use anyhow::anyhow;
 
+use prone::regime::Regime;
 use prone_files::defaults::CycleDefaults;
 use prone_record::frontier::{CycleObjective, Frontier, SettingKind};
-use prone_record::search_plan::SearchSolver;
+use prone_record::program::RobotInfo;
+use prone_record::search_plan::{CyclePlan, OnePlan, SearchHead, SearchSolver, UnderPlan};
 use prone_sim::LoadedRobot;
-use prone_study::search::cycles::{Asked, CycleQuestion, CycleRun, Under, Wanted};
+use prone_study::search::cycles::{CycleGaits, CycleRun, CycleSearchError};
 use prone_study::search::passage::too_low;
 
 use crate::args::optimize::{OptimizeArgs, SolverName};
@@ -35,33 +37,33 @@ pub(crate) fn frontier(args: &FrontierArgs) -> Result<(), Failure> {
         }
         refuse_too_low(&robot, "--ceilings-mm", mm, (mm - args.margin_mm) * 1e-3)?;
     }
-    let question = CycleQuestion {
+    let head = head("crawl frontier", args.seed, args.runs, args.budget);
+    let plan = CyclePlan {
         objective: match args.against {
             AgainstName::Advance => CycleObjective::Advance,
             AgainstName::Heat => CycleObjective::Heat,
         },
-        wanted: wanted(args.steerable),
-        from: passage::cycles(&robot, &from)?,
-        under: Under::Ceilings {
+        steerable: args.steerable,
+        under: UnderPlan::Frontier {
             ceilings_mm: args.ceilings_mm.clone(),
             margin_mm: args.margin_mm,
-            from,
+            from: from.clone(),
         },
-        compared: passage::cycles(&robot, &defaults.compared)?,
+        ..plan(head, &robot)
     };
-    let solver = SearchSolver::AboutTheMiddle;
-    let head = search::head("crawl frontier", solver, args.seed, args.runs, args.budget);
-    let run = CycleRun::new(&robot, question, head).map_err(Failure::input)?;
-    carry_out(
-        &run,
-        &Carried {
-            out: &args.out,
-            threads: args.threads,
-            resume: args.resume,
-            time_budget: None,
-            json: args.json,
-        },
-    )
+    let gaits = CycleGaits {
+        from: passage::cycles(&robot, &from)?,
+        compared: passage::cycles(&robot, &defaults.compared)?,
+        worst_over: None,
+    };
+    let carried = Carried {
+        out: &args.out,
+        threads: args.threads,
+        resume: args.resume,
+        time_budget: None,
+        json: args.json,
+    };
+    carry_out(&robot, plan, gaits, &carried)
 }
 
 /// `prone optimize --source cycle`.
@@ -86,42 +88,79 @@ pub(crate) fn optimize(args: &OptimizeArgs) -> Result<(), Failure> {
         refuse_too_low(&robot, "--ceiling-mm", mm, mm * 1e-3)?;
     }
     refuse_heats(args, objective)?;
-    let worst_over = match &args.worst_over {
-        Some(name) => Some((name.clone(), passage::find(&robot, name)?)),
-        None => None,
-    };
-    let question = CycleQuestion {
-        objective,
-        wanted: wanted(args.steerable),
+    let worst_over = args.worst_over.as_ref();
+    let gaits = CycleGaits {
         from,
-        under: Under::One(Box::new(Asked {
+        compared: passage::cycles(&robot, &defaults.compared)?,
+        worst_over: worst_over
+            .map(|name| passage::find(&robot, name))
+            .transpose()?,
+    };
+    let budget = args.budget.unwrap_or(BUDGET);
+    let plan = CyclePlan {
+        objective,
+        steerable: args.steerable,
+        under: UnderPlan::One(Box::new(OnePlan {
+            source: args.pricing.source.clone(),
             ceiling_mm: args.ceiling_mm,
             least_advance_mm: args.least_advance_mm,
             demanded_shoulder_nm: args.demanded_shoulder_nm,
             body_share_percent: args.body_share_percent,
+            worst_over: args.worst_over.clone(),
             most_heat: args.most_heat,
-            worst_over,
+            from: String::new(),
             name: args.name.clone(),
         })),
-        compared: passage::cycles(&robot, &defaults.compared)?,
+        ..plan(head("optimize", args.seed, args.runs, budget), &robot)
     };
-    let (solver, budget) = (SearchSolver::AboutTheMiddle, args.budget.unwrap_or(BUDGET));
-    let head = search::head("optimize", solver, args.seed, args.runs, budget);
-    let run = CycleRun::new(&robot, question, head).map_err(Failure::input)?;
-    carry_out(
-        &run,
-        &Carried {
-            out: &args.out,
-            threads: args.threads,
-            resume: args.resume,
-            time_budget: None,
-            json: args.json,
-        },
-    )
+    let carried = Carried {
+        out: &args.out,
+        threads: args.threads,
+        resume: args.resume,
+        time_budget: None,
+        json: args.json,
+    };
+    carry_out(&robot, plan, gaits, &carried)
 }
 
-fn carry_out(run: &CycleRun, carried: &Carried<'_>) -> Result<(), Failure> {
-    carried.carry_out(run, |frontier, out| {
+fn head(command: &str, seed: u64, runs: u64, budget: u64) -> SearchHead {
+    search::head(command, SearchSolver::AboutTheMiddle, seed, runs, budget)
+}
+
+/// A plan that asks for nothing yet.
+fn plan(head: SearchHead, robot: &LoadedRobot) -> CyclePlan {
+    CyclePlan {
+        head,
+        objective: CycleObjective::Advance,
+        steerable: false,
+        under: UnderPlan::Frontier {
+            ceilings_mm: Vec::new(),
+            margin_mm: 0.0,
+            from: Vec::new(),
+        },
+        bases: Vec::new(),
+        regime: Regime::LOCOMOTION.name.to_owned(),
+        robot: RobotInfo::of(robot.robot(), robot.files()),
+    }
+}
+
+fn carry_out(
+    robot: &LoadedRobot,
+    plan: CyclePlan,
+    gaits: CycleGaits,
+    carried: &Carried<'_>,
+) -> Result<(), Failure> {
+    let worst_over = match &plan.under {
+        UnderPlan::One(one) => one.worst_over.clone(),
+        UnderPlan::Frontier { .. } => None,
+    };
+    let run = CycleRun::new(robot, plan, gaits).map_err(|error| match (error, worst_over) {
+        (CycleSearchError::WorstOver(error), Some(name)) => {
+            Failure::Input(anyhow!("--worst-over {name}: {error}"))
+        }
+        (error, _) => Failure::input(error),
+    })?;
+    carried.carry_out(&run, |frontier, out| {
         print(frontier, out)?;
         writeln!(out, "\nresult: {}", carried.out.display())
     })
@@ -176,14 +215,6 @@ fn names<T: AsRef<[String]>>(given: T, defaults: &CycleDefaults) -> Vec<String> 
     match given.as_ref() {
         [] => defaults.from.clone(),
         given => given.to_vec(),
-    }
-}
-
-fn wanted(steerable: bool) -> Wanted {
-    if steerable {
-        Wanted::Steerable
-    } else {
-        Wanted::All
     }
 }
 

@@ -377,7 +377,7 @@ mod tests {
         fn score(&self, batch: &[Query]) -> Vec<Answer> {
             let mut answers = self.bowl.score(batch);
             self.batches.set(self.batches.get() + 1);
-            if self.batches.get() % 5 == 0 {
+            if self.batches.get().is_multiple_of(5) {
                 answers.pop();
             }
             answers

@@ -19,21 +19,19 @@ use crate::search::{Search, Solver};
 pub enum SearchPlan {
     /// `prone optimize` over pulls.
     Pull(Box<PullPlan>),
-    /// `prone optimize` over whole cycles.
-    Cycle(CyclePlan),
-    /// `prone crawl frontier`: cycles under several ceilings.
-    Frontier(FrontierPlan),
+    /// `prone optimize` over whole cycles, and `prone crawl frontier`.
+    Cycle(Box<CyclePlan>),
 }
 
 /// Cycles are told from pulls by the command and by the source `cycle`.
 impl<'de> Deserialize<'de> for SearchPlan {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let plan = Value::deserialize(deserializer)?;
-        let word = |key: &str| plan.get(key).and_then(Value::as_str).map(str::to_owned);
-        let read = match (word("command").as_deref(), word("source").as_deref()) {
-            (Some("crawl frontier"), _) => serde_json::from_value(plan).map(Self::Frontier),
-            (_, Some("cycle")) => serde_json::from_value(plan).map(Self::Cycle),
-            _ => serde_json::from_value(plan).map(|plan| Self::Pull(Box::new(plan))),
+        let is = |key: &str, word: &str| plan.get(key).and_then(Value::as_str) == Some(word);
+        let read = if is("command", "crawl frontier") || is("source", "cycle") {
+            serde_json::from_value(plan).map(Self::Cycle)
+        } else {
+            serde_json::from_value(plan).map(Self::Pull)
         };
         read.map_err(D::Error::custom)
     }
@@ -196,16 +194,47 @@ pub struct CyclePlan {
     /// What every plan says.
     #[serde(flatten)]
     pub head: SearchHead,
-    /// `cycle`.
-    pub source: String,
     /// What is minimised.
     pub objective: CycleObjective,
-    /// Height below which everything stays, mm.
-    pub ceiling_mm: Option<f64>,
     /// Whether only cycles that can be steered count.
     pub steerable: bool,
-    /// Least advance per cycle, mm.
-    pub least_advance_mm: f64,
+    /// Under which ceilings, by which rules.
+    #[serde(flatten)]
+    pub under: UnderPlan,
+    /// The cycle that is searched about, under each ceiling; known once the search is prepared.
+    pub bases: Vec<String>,
+    /// Contact regime.
+    pub regime: String,
+    /// Of which robot.
+    pub robot: RobotInfo,
+}
+
+/// Under which ceilings cycles are searched, by which rules.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum UnderPlan {
+    /// `prone crawl frontier`: several ceilings, the usual rules.
+    Frontier {
+        /// Ceilings, mm.
+        ceilings_mm: Vec<f64>,
+        /// Distance that has to stay between robot and ceiling, mm.
+        margin_mm: f64,
+        /// Cycles of which one is searched about under each ceiling.
+        from: Vec<String>,
+    },
+    /// `prone optimize`: one ceiling or none, rules that can be asked for.
+    One(Box<OnePlan>),
+}
+
+/// One ceiling or none, and the rules that are asked for.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct OnePlan {
+    /// `cycle`.
+    pub source: String,
+    /// Height below which everything stays, mm.
+    pub ceiling_mm: Option<f64>,
+    /// Least advance per cycle, mm; the usual one is filled in once the search is prepared.
+    pub least_advance_mm: Option<f64>,
     /// Largest torque that a shoulder's servo may demand, N·m.
     pub demanded_shoulder_nm: Option<f64>,
     /// Largest share of the weight on trunk and legs.
@@ -214,40 +243,10 @@ pub struct CyclePlan {
     pub worst_over: Option<String>,
     /// Largest heat.
     pub most_heat: Option<f64>,
-    /// The cycle that is searched about.
+    /// The cycle that is searched about; known once the search is prepared.
     pub from: String,
-    /// Name of the found cycle, where the user gave one.
+    /// Name of the found cycle, where the user gave one; else it is called after the objective.
     pub name: Option<String>,
-    /// Contact regime.
-    pub regime: String,
-    /// The same as `from`.
-    pub bases: Vec<String>,
-    /// Of which robot.
-    pub robot: RobotInfo,
-}
-
-/// Searches of cycles under several ceilings.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct FrontierPlan {
-    /// What every plan says.
-    #[serde(flatten)]
-    pub head: SearchHead,
-    /// Ceilings, mm.
-    pub ceilings_mm: Vec<f64>,
-    /// What is minimised.
-    pub objective: CycleObjective,
-    /// Distance that has to stay between robot and ceiling, mm.
-    pub margin_mm: f64,
-    /// Whether only cycles that can be steered count.
-    pub steerable: bool,
-    /// Cycles of which one is searched about under each ceiling.
-    pub from: Vec<String>,
-    /// Which it is.
-    pub bases: Vec<String>,
-    /// Contact regime.
-    pub regime: String,
-    /// Of which robot.
-    pub robot: RobotInfo,
 }
 
 impl SearchPlan {
@@ -256,7 +255,6 @@ impl SearchPlan {
         match self {
             Self::Pull(plan) => &plan.head,
             Self::Cycle(plan) => &plan.head,
-            Self::Frontier(plan) => &plan.head,
         }
     }
 
@@ -267,7 +265,6 @@ impl SearchPlan {
         let head = match &mut plan {
             Self::Pull(plan) => &mut plan.head,
             Self::Cycle(plan) => &mut plan.head,
-            Self::Frontier(plan) => &mut plan.head,
         };
         head.budget = None;
         plan

@@ -282,11 +282,7 @@ fn read(
         "reproduce pull" => Run::Pull(Box::new(PullRun::read(folder)?)),
         "optimize" | "crawl frontier" => match folder.run()? {
             SearchPlan::Pull(plan) => Run::Search(Box::new(SearchRun::read(folder, &plan)?)),
-            SearchPlan::Cycle(plan) => {
-                let heats_over = plan.worst_over.as_deref();
-                Run::Drawn(Box::new(DrawnRun::cycles(folder, heats_over)?))
-            }
-            SearchPlan::Frontier(_) => Run::Drawn(Box::new(DrawnRun::cycles(folder, None)?)),
+            SearchPlan::Cycle(plan) => Run::Drawn(Box::new(DrawnRun::cycles(folder, &plan.under)?)),
         },
         "torque-map plot" => Run::Drawn(Box::new(DrawnRun::map(folder)?)),
         other => {

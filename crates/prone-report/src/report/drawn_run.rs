@@ -7,6 +7,7 @@ use super::folder::Folder;
 use crate::figures::{Figure, GenerationRecord, Scores, SearchRecord, generations};
 use prone_record::figure_entry::FigureEntry;
 use prone_record::frontier::{CycleObjective, Found, Frontier};
+use prone_record::search_plan::UnderPlan;
 
 /// What such a command left behind.
 pub(super) struct DrawnRun {
@@ -21,12 +22,12 @@ pub(super) struct DrawnRun {
 
 impl DrawnRun {
     /// A search of whole cycles, whose heats may be shares of another cycle's.
-    pub(super) fn cycles(folder: Folder, heats_over: Option<&str>) -> Result<Self, ReportError> {
+    pub(super) fn cycles(folder: Folder, under: &UnderPlan) -> Result<Self, ReportError> {
         let result: Frontier = folder.json("result.json")?;
         let mut cuts = Vec::new();
         Ok(Self {
             recorded: folder.figures()?,
-            history: history(&folder, &result, heats_over, &mut cuts)?,
+            history: history(&folder, &result, under, &mut cuts)?,
             cycles: Some(result),
             cuts,
             folder,
@@ -57,12 +58,10 @@ impl DrawnRun {
 
 /// What the values of a search are, in which unit, and that unit in theirs; searches minimise, so that
 /// what is to be large is negative.
-const fn quantity(
-    objective: CycleObjective,
-    heats_over: Option<&str>,
-) -> (&'static str, &'static str, f64) {
+fn quantity(objective: CycleObjective, under: &UnderPlan) -> (&'static str, &'static str, f64) {
+    let over = matches!(under, UnderPlan::One(one) if one.worst_over.is_some());
     match objective {
-        CycleObjective::Heat if heats_over.is_some() => ("heat over another cycle's", "–", 1.0),
+        CycleObjective::Heat if over => ("heat over another cycle's", "–", 1.0),
         CycleObjective::Heat => ("heat per metre", "s/m", 1.0),
         CycleObjective::Advance => ("advance per cycle", "mm", -1e3),
         CycleObjective::Speed => ("speed", "mm/s", -1e3),
@@ -74,7 +73,7 @@ const fn quantity(
 fn history(
     folder: &Folder,
     result: &Frontier,
-    heats_over: Option<&str>,
+    under: &UnderPlan,
     cuts: &mut Vec<Cut>,
 ) -> Result<Option<SearchRecord>, ReportError> {
     let mut table = folder.table("history.csv")?;
@@ -103,7 +102,7 @@ fn history(
     let Some(best) = best else {
         return Ok(None);
     };
-    let (objective, unit, factor) = quantity(result.objective, heats_over);
+    let (objective, unit, factor) = quantity(result.objective, under);
     // The table has a tenth of a millimetre.
     let same = |height: Option<f64>| match height.zip(best.ceiling_mm) {
         Some((a, b)) => (a - b).abs() < 0.06,

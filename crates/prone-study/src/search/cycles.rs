@@ -3,14 +3,12 @@
 use std::sync::Arc;
 
 use prone::gait::cycle::{Cycle, TimeScale};
-use prone::regime::Regime;
 use prone::robot::Robot;
 use prone_files::{cycle_file, text_file};
 use prone_record::frontier::{self, Compared, CycleObjective, Found, Frontier};
 use prone_record::output::Artefacts;
-use prone_record::program::RobotInfo;
 use prone_record::search::{Search, SearchEnd, SeededRun};
-use prone_record::search_plan::{CyclePlan, FrontierPlan, SearchHead, SearchPlan};
+use prone_record::search_plan::{CyclePlan, OnePlan, SearchPlan, UnderPlan};
 use prone_report::figures::frontier_figure;
 use prone_sim::LoadedRobot;
 use prone_sim::crawl::CrawlError;
@@ -26,70 +24,15 @@ use super::steering::check_steering;
 use super::trial::{Trial, try_out};
 use crate::watch::Watch;
 
-/// Which cycles are searched.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Wanted {
-    /// Any.
-    All,
-    /// Those that can be steered.
-    Steerable,
-}
-
-impl Wanted {
-    /// As a word of a plan.
-    pub const fn is_steerable(self) -> bool {
-        matches!(self, Self::Steerable)
-    }
-}
-
-/// What is searched of cycles.
+/// The cycles that a plan names.
 #[derive(Debug, Clone)]
-pub struct CycleQuestion {
-    /// What is minimised.
-    pub objective: CycleObjective,
-    /// Which count.
-    pub wanted: Wanted,
-    /// Cycles of which one is searched about under each ceiling.
+pub struct CycleGaits {
+    /// Those of which one is searched about under each ceiling.
     pub from: Vec<Cycle>,
-    /// Under which ceilings.
-    pub under: Under,
-    /// Other cycles in the same confirmation.
+    /// Others in the same confirmation.
     pub compared: Vec<Cycle>,
-}
-
-/// Under which ceilings cycles are searched, and by which rules.
-#[derive(Debug, Clone)]
-pub enum Under {
-    /// Several, mm, by the usual rules.
-    Ceilings {
-        /// Heights, mm.
-        ceilings_mm: Vec<f64>,
-        /// Distance that has to stay between robot and ceiling, mm.
-        margin_mm: f64,
-        /// Names of the cycles to begin with, as the user gave them.
-        from: Vec<String>,
-    },
-    /// One or none, by rules of one's own.
-    One(Box<Asked>),
-}
-
-/// What a search under one ceiling or none asks for beside the usual rules.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Asked {
-    /// The ceiling, mm.
-    pub ceiling_mm: Option<f64>,
-    /// Least advance per cycle, mm.
-    pub least_advance_mm: Option<f64>,
-    /// Largest torque that a shoulder's servo may demand, N·m.
-    pub demanded_shoulder_nm: Option<f64>,
-    /// Largest share of the weight on trunk and legs.
-    pub body_share_percent: Option<f64>,
-    /// Largest heat.
-    pub most_heat: Option<f64>,
-    /// The cycle over whose heats those found are, with its name as the user gave it.
-    pub worst_over: Option<(String, Cycle)>,
-    /// Name of the found cycle; without one it is called after the objective.
-    pub name: Option<String>,
+    /// The one over whose heats those found are.
+    pub worst_over: Option<Cycle>,
 }
 
 /// Why cycles cannot be searched.
@@ -102,13 +45,8 @@ pub enum CycleSearchError {
     #[error(transparent)]
     Costs(#[from] CycleCostError),
     /// The cycle that heats are compared with cannot be crawled.
-    #[error("--worst-over {cycle}: {source}")]
-    WorstOver {
-        /// Its name.
-        cycle: String,
-        /// Why.
-        source: CrawlError,
-    },
+    #[error(transparent)]
+    WorstOver(CrawlError),
     /// No cycle to begin with.
     #[error(
         "there is no cycle that {robot} can crawl to begin with{}",
@@ -148,98 +86,82 @@ pub struct CycleRun {
 }
 
 impl CycleRun {
-    /// Prepares a search; `head` says by whom, with which seeds and budget.
+    /// Prepares a search; the plan is completed by what is found out about its cycles.
     ///
     /// # Errors
     /// [`CycleSearchError`].
     pub fn new(
         robot: &LoadedRobot,
-        question: CycleQuestion,
-        mut head: SearchHead,
+        mut plan: CyclePlan,
+        gaits: CycleGaits,
     ) -> Result<Self, CycleSearchError> {
-        let CycleQuestion {
-            objective,
-            wanted,
-            from,
-            under,
-            compared,
-        } = question;
-        let settings = search_settings(objective, wanted, robot)?;
-        let mut jobs = Vec::new();
-        let mut search_under = |ceiling_mm: Option<f64>, height: f64, asked: &Asked| {
-            let base = base(robot, &settings[0], &from, height)?;
-            let aim = asked.aim(objective, height, base, robot.robot(), &settings)?;
-            let least_advance_mm = aim.rules.advance * 1e3;
-            head.base_sha256.insert(
-                base.pull.name.clone(),
-                text_file::sha256(&[&cycle_file::write(base, "")]),
-            );
+        let objective = plan.objective;
+        let mut searched = settings::for_search(objective, robot)?;
+        let mut confirmation = settings::for_confirmation_of(objective, robot)?;
+        let steering = settings::for_steering_confirmation(robot)?;
+        if plan.steerable {
+            searched.extend(settings::for_steering(robot)?);
+            confirmation.extend(steering.iter().cloned());
+        }
+        let searched: Arc<[Setting]> = searched.into();
+        let merge = match gaits.worst_over {
+            None => Merge::Mean,
+            Some(cycle) => {
+                let merge = Merge::worst_over(&searched, &cycle);
+                merge.map_err(CycleSearchError::WorstOver)?
+            }
+        };
+        // The ceiling, mm, and what has to stay below which height, m.
+        let (ceilings, margin_mm): (Vec<(Option<f64>, f64)>, f64) = match &plan.under {
+            UnderPlan::Frontier {
+                ceilings_mm,
+                margin_mm,
+                ..
+            } => {
+                let height = |mm: &f64| (Some(*mm), (mm - margin_mm) * 1e-3);
+                (ceilings_mm.iter().map(height).collect(), *margin_mm)
+            }
+            UnderPlan::One(one) => {
+                let height = one.ceiling_mm.map_or(f64::INFINITY, |mm| mm * 1e-3);
+                (vec![(one.ceiling_mm, height)], 0.0)
+            }
+        };
+        let mut jobs = Vec::with_capacity(ceilings.len());
+        for (ceiling_mm, height) in ceilings {
+            let base = base(robot, &searched[0], &gaits.from, height)?;
+            let mut rules = usual_rules(objective, height, base, robot.robot());
+            if let UnderPlan::One(one) = &mut plan.under {
+                ask(one, &mut rules);
+                one.from.clone_from(&base.pull.name);
+            }
+            let hash = text_file::sha256(&[&cycle_file::write(base, "")]);
+            plan.head.base_sha256.insert(base.pull.name.clone(), hash);
+            plan.bases.push(base.pull.name.clone());
+            let aim = CycleAim {
+                objective,
+                merge: merge.clone(),
+                rules,
+            };
             jobs.push(Job {
                 ceiling_mm,
                 base: base.pull.name.clone(),
-                candidates: CycleSearch::new(robot.robot(), &settings, aim, base)?,
+                candidates: CycleSearch::new(robot.robot(), &searched, aim, base)?,
             });
-            Ok::<_, CycleSearchError>(least_advance_mm)
+        }
+        let name = match &plan.under {
+            UnderPlan::Frontier { .. } => None,
+            UnderPlan::One(one) => Some(one.name.clone()),
         };
-        let info = RobotInfo::of(robot.robot(), robot.files());
-        let regime = Regime::LOCOMOTION.name.to_owned();
-        let bases = |jobs: &[Job<_>]| jobs.iter().map(|job| job.base.clone()).collect();
-        let (plan, margin_mm, name) = match under {
-            Under::Ceilings {
-                ceilings_mm,
-                margin_mm,
-                from,
-            } => {
-                for &mm in &ceilings_mm {
-                    search_under(Some(mm), (mm - margin_mm) * 1e-3, &Asked::default())?;
-                }
-                let plan = SearchPlan::Frontier(FrontierPlan {
-                    head,
-                    ceilings_mm,
-                    objective,
-                    margin_mm,
-                    steerable: wanted.is_steerable(),
-                    from,
-                    bases: bases(&jobs),
-                    regime,
-                    robot: info,
-                });
-                (plan, margin_mm, None)
-            }
-            Under::One(asked) => {
-                let height = asked.ceiling_mm.map_or(f64::INFINITY, |mm| mm * 1e-3);
-                let least_advance_mm = search_under(asked.ceiling_mm, height, &asked)?;
-                let bases: Vec<String> = bases(&jobs);
-                let plan = SearchPlan::Cycle(CyclePlan {
-                    head,
-                    source: "cycle".to_owned(),
-                    objective,
-                    ceiling_mm: asked.ceiling_mm,
-                    steerable: wanted.is_steerable(),
-                    least_advance_mm,
-                    demanded_shoulder_nm: asked.demanded_shoulder_nm,
-                    body_share_percent: asked.body_share_percent,
-                    worst_over: asked.worst_over.map(|(name, _)| name),
-                    most_heat: asked.most_heat,
-                    from: bases.concat(),
-                    name: asked.name.clone(),
-                    regime,
-                    bases,
-                    robot: info,
-                });
-                let usual = || format!("best-{}", objective.name());
-                (plan, 0.0, Some(asked.name.unwrap_or_else(usual)))
-            }
-        };
+        let usual = || format!("best-{}", objective.name());
         Ok(Self {
-            plan,
+            plan: SearchPlan::Cycle(Box::new(plan)),
             objective,
             margin_mm,
             jobs,
-            confirmation: confirmation_settings(objective, wanted, robot)?,
-            steering: settings::for_steering_confirmation(robot)?,
-            compared,
-            name,
+            confirmation,
+            steering,
+            compared: gaits.compared,
+            name: name.map(|name| name.unwrap_or_else(usual)),
         })
     }
 
@@ -400,40 +322,15 @@ impl SearchRun for CycleRun {
     }
 }
 
-impl Asked {
-    /// The aim of a search below a height, m, about a cycle: the usual rules, but for what is asked.
-    fn aim(
-        &self,
-        objective: CycleObjective,
-        height: f64,
-        base: &Cycle,
-        robot: &Robot,
-        settings: &[Setting],
-    ) -> Result<CycleAim, CycleSearchError> {
-        let usual = usual_rules(objective, height, base, robot);
-        let merge = match &self.worst_over {
-            None => Merge::Mean,
-            Some((name, cycle)) => Merge::worst_over(settings, cycle).map_err(|source| {
-                CycleSearchError::WorstOver {
-                    cycle: name.clone(),
-                    source,
-                }
-            })?,
-        };
-        Ok(CycleAim {
-            objective,
-            merge,
-            rules: CycleRules {
-                advance: self.least_advance_mm.map_or(usual.advance, |mm| mm * 1e-3),
-                demanded_shoulder: self.demanded_shoulder_nm.unwrap_or(usual.demanded_shoulder),
-                body_share: self
-                    .body_share_percent
-                    .map_or(usual.body_share, |percent| percent / 100.0),
-                heat: self.most_heat.unwrap_or(usual.heat),
-                ..usual
-            },
-        })
-    }
+/// Puts what is asked for in place of the usual rules.
+fn ask(one: &mut OnePlan, rules: &mut CycleRules) {
+    let set = |rule: &mut f64, asked: Option<f64>| *rule = asked.unwrap_or(*rule);
+    set(&mut rules.advance, one.least_advance_mm.map(|mm| mm * 1e-3));
+    set(&mut rules.demanded_shoulder, one.demanded_shoulder_nm);
+    let share = one.body_share_percent.map(|percent| percent / 100.0);
+    set(&mut rules.body_share, share);
+    set(&mut rules.heat, one.most_heat);
+    one.least_advance_mm = Some(rules.advance * 1e3);
 }
 
 /// The usual rules of a search below a height, m: for heat and peak the robot's least advance, else
@@ -458,40 +355,6 @@ pub fn usual_rules(
             ..free
         },
     }
-}
-
-/// Settings of a search.
-///
-/// # Errors
-/// [`SettingError`].
-pub fn search_settings(
-    objective: CycleObjective,
-    wanted: Wanted,
-    robot: &LoadedRobot,
-) -> Result<Arc<[Setting]>, SettingError> {
-    let mut settings = match objective {
-        CycleObjective::Heat | CycleObjective::Peak => settings::for_heat(robot)?,
-        CycleObjective::Advance | CycleObjective::Speed => settings::for_advance(robot)?,
-    };
-    if wanted == Wanted::Steerable {
-        settings.extend(settings::for_steering(robot)?);
-    }
-    Ok(settings.into())
-}
-
-fn confirmation_settings(
-    objective: CycleObjective,
-    wanted: Wanted,
-    robot: &LoadedRobot,
-) -> Result<Vec<Setting>, SettingError> {
-    let mut settings = match objective {
-        CycleObjective::Heat | CycleObjective::Peak => settings::for_heat_confirmation(robot)?,
-        CycleObjective::Advance | CycleObjective::Speed => settings::for_confirmation(robot)?,
-    };
-    if wanted == Wanted::Steerable {
-        settings.extend(settings::for_steering_confirmation(robot)?);
-    }
-    Ok(settings)
 }
 
 /// The base of a search under a height, m: of the cycles that stay below it, the one that advances

@@ -1,6 +1,7 @@
 //! Whether a robot gets under a ceiling, with which cycle, and what limits it.
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use glam::DVec3;
 
@@ -15,9 +16,10 @@ use serde::Serialize;
 use super::candidates::Searched;
 use super::candidates::{Candidates as _, Depth};
 use super::cycle_cost::{CycleAim, CycleSearch, Merge};
-use super::cycles::{self, CycleSearchError, Wanted};
+use super::cycles::{self, CycleSearchError};
 use super::run::SearchError;
 use super::setting::Setting;
+use super::settings;
 use super::trial::{Trial, try_out};
 use crate::watch::{Progress, Watch};
 use prone_optim::Threads;
@@ -195,8 +197,8 @@ impl PassageSearch {
         watch: &dyn Watch,
     ) -> Result<Option<Cycle>, PassageError> {
         let objective = CycleObjective::Advance;
-        let settings = cycles::search_settings(objective, Wanted::All, robot);
-        let settings = settings.map_err(CycleSearchError::from)?;
+        let settings = settings::for_search(objective, robot);
+        let settings: Arc<[Setting]> = settings.map_err(CycleSearchError::from)?.into();
         let base = cycles::base(robot, &settings[0], cycles, height)?;
         let aim = CycleAim {
             objective,
@@ -275,7 +277,6 @@ mod tests {
     use prone_sim::{LoadedRobot, RobotFiles};
 
     use super::*;
-    use crate::search::settings;
 
     #[test]
     fn reference_the_foot_decides_at_160_mm() {

@@ -13,7 +13,7 @@ use prone_optim::Random;
 use prone_sim::{LoadedRobot, WorldError};
 
 use super::setting::{HOLDS, Role, Setting, SettingSpec};
-use prone_record::frontier::SettingKind;
+use prone_record::frontier::{CycleObjective, SettingKind};
 
 /// Friction of the locomotion regime and the span over which a cycle has to hold.
 const SLIPPERY: f64 = 0.4;
@@ -102,6 +102,34 @@ fn compiled<const N: usize>(
 ) -> Result<Vec<Setting>, SettingError> {
     let settings = specs.into_iter().map(|spec| Ok(spec.compile(robot)?));
     settings.collect()
+}
+
+/// For a search by an objective.
+///
+/// # Errors
+/// [`SettingError`].
+pub fn for_search(
+    objective: CycleObjective,
+    robot: &LoadedRobot,
+) -> Result<Vec<Setting>, SettingError> {
+    match objective {
+        CycleObjective::Heat | CycleObjective::Peak => for_heat(robot),
+        CycleObjective::Advance | CycleObjective::Speed => for_advance(robot),
+    }
+}
+
+/// For the confirmation of what such a search found.
+///
+/// # Errors
+/// [`SettingError`].
+pub fn for_confirmation_of(
+    objective: CycleObjective,
+    robot: &LoadedRobot,
+) -> Result<Vec<Setting>, SettingError> {
+    match objective {
+        CycleObjective::Heat | CycleObjective::Peak => for_heat_confirmation(robot),
+        CycleObjective::Advance | CycleObjective::Speed => for_confirmation(robot),
+    }
 }
 
 /// For a search of the advance: as it is, and the two corners in which it is hardest to hold.
