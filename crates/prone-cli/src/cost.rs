@@ -5,7 +5,8 @@ use std::io::Write as _;
 use anyhow::anyhow;
 
 use prone_record::gait_search::Priced;
-use prone_study::optimize::pricer::{self, Aim};
+use prone_study::search::candidates::{Depth, Refusal};
+use prone_study::search::pull_cost::{PullAim, PullCosts};
 
 use crate::Failure;
 use crate::args::optimize::CostArgs;
@@ -14,27 +15,32 @@ use crate::pricing::Pricing;
 pub(crate) fn run(args: &CostArgs) -> Result<(), Failure> {
     let robot = crate::robot::load(args.pricing.robot.name())?;
     let gait = crate::gait::find(&robot.files().gaits, args.gait.name())?;
-    let pricing = Pricing::new(&args.pricing, robot, Some(&gait))?;
-    let graded = matches!(pricing.aim, Aim::Graded(_));
-    if graded && (gait.mapping, gait.arm) != (pricing.base.mapping, pricing.base.arm) {
+    let Pricing { world, terms, .. } = Pricing::new(&args.pricing, robot, Some(&gait))?;
+    let (graded, base) = (matches!(terms.aim, PullAim::Graded(_)), &terms.base);
+    if graded && (gait.mapping, gait.arm) != (base.mapping, base.arm) {
         return Err(Failure::Input(anyhow!(
             "gait {} has mapping {} and arms {}, but {} of --from has {} and {}: leave out --from, or name a gait of the same kind there",
             gait.name,
             gait.mapping.name(),
             gait.arm.name(),
-            pricing.base.name,
-            pricing.base.mapping.name(),
-            pricing.base.arm.name()
+            base.name,
+            base.mapping.name(),
+            base.arm.name()
         )));
     }
-    let pricer = pricer::pricer(&pricing.world, &pricing.terms()).map_err(Failure::input)?;
-    let price = pricer.price(&gait).map_err(Failure::input)?;
+    let unit = terms.aim.objective().unit();
+    let costs = PullCosts::new(&world, terms).map_err(Failure::input)?;
+    let cost = costs.cost(&gait, Depth::Everything);
+    if let Some(refusal @ Refusal::NotCubic { .. }) = cost.refusal {
+        return Err(Failure::input(refusal));
+    }
+    let price = costs.record(&cost);
     let mut out = std::io::stdout().lock();
     if args.json {
         let text = serde_json::to_string_pretty(&price).map_err(Failure::work)?;
         writeln!(out, "{text}")?;
     } else {
-        print(&gait.name, &price, pricing.objective().unit(), &mut out)?;
+        print(&gait.name, &price, unit, &mut out)?;
     }
     Ok(())
 }

@@ -5,7 +5,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use anyhow::anyhow;
 
-use prone_study::watch::Watch;
+use prone_study::watch::{Progress, Watch};
 
 use crate::Failure;
 use crate::failure::STOPPED;
@@ -54,6 +54,8 @@ impl Watch for Interrupted {
     fn stop(&self) -> bool {
         requested()
     }
+
+    fn progress(&self, _: &Progress<'_>) {}
 }
 
 /// Whether the work is to end.

@@ -21,6 +21,7 @@ mod record_folder;
 mod report;
 mod reproduce;
 mod robot;
+mod search;
 mod torque_map;
 mod view;
 

@@ -1,26 +1,21 @@
 //! `prone crawl under`: can the robot get under this, how, and how fast?
 
 use std::io::Write as _;
-use std::ops::ControlFlow;
 
 use anyhow::anyhow;
 
 use prone::gait::cycle::Cycle;
 use prone_files::cycle_file;
-use prone_record::frontier::CycleObjective;
-use prone_record::search::{Search, SearchEnd};
 use prone_record::single_file;
 use prone_sim::LoadedRobot;
-use prone_study::cycle_search::frontier::{self, Hunt};
-use prone_study::cycle_search::passage::{Passage, Tried};
-use prone_study::cycle_search::price::{Aim, Merge};
-use prone_study::cycle_search::setting::Setting;
-use prone_study::cycle_search::settings;
+use prone_study::search::passage::{Passage, PassageError, PassageSearch};
+use prone_study::search::run::SearchError;
+use prone_study::search::settings;
 
 use crate::args::passage::UnderArgs;
 use crate::gait::find_cycle;
-use crate::progress::SearchProgress;
-use crate::{Failure, interrupt};
+use crate::progress::Progress;
+use crate::{Failure, interrupt, search};
 
 /// A cycle by name, or the cycle of a file.
 pub(crate) fn find(robot: &LoadedRobot, name: &str) -> Result<Cycle, Failure> {
@@ -55,22 +50,27 @@ pub(crate) fn run(args: &UnderArgs) -> Result<(), Failure> {
     let settings = settings::for_advance(&robot).map_err(Failure::input)?;
     let (ceiling, margin) = (args.ceiling_mm * 1e-3, args.margin_mm * 1e-3);
     if margin >= ceiling {
-        return Err(Failure::Input(anyhow!(
-            "--margin-mm {} must be smaller than --ceiling-mm {}",
-            args.margin_mm,
-            args.ceiling_mm
-        )));
+        return Err(no_room(args.ceiling_mm, args.margin_mm));
     }
     interrupt::listen()?;
     let tried = sources.iter().map(|(cycle, origin)| (cycle, *origin));
-    let mut passage = Passage::of(robot.robot(), &settings[0], tried, ceiling, margin);
+    let mut passage = Passage::try_all(robot.robot(), &settings[0], tried, ceiling, margin);
     let mut cycles: Vec<Cycle> = sources.into_iter().map(|(cycle, _)| cycle).collect();
     if let (Some(seed), true) = (args.seed, passage.may_be_searched()) {
-        let found = search(args, &robot, &settings, &cycles, ceiling - margin, seed)?;
-        if let Some((cycle, tried)) = found {
-            passage.take(tried, "searched");
-            cycles.push(cycle);
-        }
+        let search = PassageSearch {
+            seed,
+            budget: args.budget,
+        };
+        let (mm, height) = (args.ceiling_mm, ceiling - margin);
+        let progress = Progress::searching()?;
+        let found = search::pool(args.threads)?
+            .install(|| search.run(&robot, &cycles, &mut passage, mm, height, &progress));
+        progress.finish();
+        cycles.extend(found.map_err(|error| match error {
+            PassageError::Result(SearchError::Stopped) => Failure::Stopped,
+            PassageError::Result(error) => Failure::work(error),
+            PassageError::Search(error) => Failure::input(error),
+        })?);
     }
     if interrupt::requested() {
         return Err(Failure::Stopped);
@@ -99,55 +99,11 @@ pub(crate) fn run(args: &UnderArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Searches a cycle that fits about the lowest one there is.
-fn search(
-    args: &UnderArgs,
-    robot: &LoadedRobot,
-    settings: &[Setting],
-    cycles: &[Cycle],
-    height: f64,
-    seed: u64,
-) -> Result<Option<(Cycle, Tried)>, Failure> {
-    let base = frontier::base(robot, &settings[0], cycles, height).map_err(Failure::input)?;
-    let aim = Aim {
-        objective: CycleObjective::Advance,
-        merge: Merge::Mean,
-        rules: settings::advance_rules(height, base),
-    };
-    let hunt = Hunt::new(robot.robot(), settings, aim, base).map_err(Failure::input)?;
-    let mut search = Search::about_the_middle(seed, 1, args.budget);
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(args.threads.map_or(0, usize::from))
-        .build()
-        .map_err(|error| Failure::Work(anyhow!("cannot start worker threads: {error}")))?;
-    let progress = SearchProgress::new(&search)?;
-    let end = pool.install(|| {
-        hunt.proceed(&mut search, |search| {
-            progress.show(search);
-            if interrupt::requested() {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        })
-    });
-    progress.finish();
-    if end == SearchEnd::Interrupted {
-        return Err(Failure::Stopped);
-    }
-    let Some((_, best)) = search.best() else {
-        return Ok(None);
-    };
-    let (mut cycle, price) = hunt.quote(&best.point).map_err(Failure::work)?;
-    cycle.pull.name = format!(
-        "under-{}-seed-{seed}",
-        args.ceiling_mm.to_string().replace('.', "-")
-    );
-    let Some(trial) = price.trials.first() else {
-        return Ok(None);
-    };
-    let tried = Tried::of(&cycle, trial, args.ceiling_mm * 1e-3);
-    Ok(Some((cycle, tried)))
+/// A margin that is as large as its ceiling.
+pub(crate) fn no_room(ceiling_mm: f64, margin_mm: f64) -> Failure {
+    Failure::Input(anyhow!(
+        "a margin of {margin_mm} mm leaves nothing of a ceiling of {ceiling_mm} mm"
+    ))
 }
 
 fn print(

@@ -1,22 +1,21 @@
-//! What was typed about a price, checked and loaded.
+//! What was typed about the cost of a pull, checked and loaded.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use anyhow::anyhow;
-use serde_json::{Value, json};
 
 use prone::cost::objective::Objective;
 use prone::cost::published::PublishedRules;
 use prone::gait::{Gait, PhaseDuration};
 use prone::regime::Regime;
-use prone::torque_map::{self, TorqueMap};
+use prone::torque_map;
 use prone_files::defaults::PullDefaults;
 use prone_files::gaits::Gaits;
 use prone_files::text_file;
 use prone_sim::{LoadedRobot, World};
-use prone_study::optimize::pricer::{self, Aim, Source, Terms};
-use prone_study::optimize::pricing::{self, Share};
-use prone_study::optimize::rules::{self, ChainRules, Clearance};
+use prone_study::search::chain_rules::{self, ChainRules, Clearance};
+use prone_study::search::pull_cost::{self, PullAim, PullTerms, Share, Source};
 
 use crate::Failure;
 use crate::args::pricing::{ClearanceName, LimitsName, ObjectiveName, PerName, PricingArgs};
@@ -31,29 +30,16 @@ const RATE_DEG_PER_PHASE: f64 = 200.0;
 /// Largest weight: squares of torques times it are far from overflowing.
 const HEAVIEST: f64 = 1e6;
 
-/// Everything that decides a price, loaded.
+/// Everything that decides a cost, loaded.
 pub(crate) struct Pricing {
     pub(crate) robot: LoadedRobot,
     pub(crate) world: World,
-    pub(crate) aim: Aim,
-    pub(crate) base: Gait,
-    pub(crate) duration: PhaseDuration,
-    source: LoadedSource,
-    share: Share,
-    rules: ChainRules,
-    body_share: f64,
-    /// For `run.json` and checkpoints.
-    pub(crate) record: Value,
-}
-
-enum LoadedSource {
-    Map { map: Box<TorqueMap>, hash: String },
-    Statics,
-    Dynamics,
+    pub(crate) terms: PullTerms,
 }
 
 impl Pricing {
-    /// Checks what was typed, and loads the rest; `priced` is the gait to price, where there is one.
+    /// Checks what was typed, and loads the rest; `priced` is the gait whose cost is asked for, where
+    /// there is one.
     pub(crate) fn new(
         args: &PricingArgs,
         robot: LoadedRobot,
@@ -70,11 +56,11 @@ impl Pricing {
             None => PhaseDuration::new(DURATION_S).map_err(Failure::input)?,
         };
         let clearance = clearance(args, &source, &world, &base)?;
-        let (body_share, share_of) = match (aim, &source) {
-            (Aim::Graded(_), LoadedSource::Dynamics) => {
+        let (body_share, body_share_of) = match (aim, &source) {
+            (PullAim::Graded(_), Source::Dynamics) => {
                 let gait = body_share_of(args, &robot, &defaults, &base)?;
-                let share = pricer::body_share(&world, &gait, duration).map_err(Failure::input)?;
-                (share, Some(gait.name))
+                let share = pull_cost::body_share(&world, &gait, duration);
+                (share.map_err(Failure::input)?, Some(gait.name))
             }
             _ if args.body_share_of.is_some() => {
                 return Err(Failure::Input(anyhow!(
@@ -87,7 +73,7 @@ impl Pricing {
             None | Some(PerName::Phase) => Share::Phase,
             Some(PerName::Metre) => {
                 for gait in priced.into_iter().chain([&base]) {
-                    pricing::check_advance(world.robot(), gait).map_err(Failure::input)?;
+                    pull_cost::check_advance(world.robot(), gait).map_err(Failure::input)?;
                 }
                 Share::Metre
             }
@@ -100,111 +86,31 @@ impl Pricing {
             stops: match args.limits {
                 Some(LimitsName::None) => None,
                 None | Some(LimitsName::Base) => {
-                    let stops = rules::widened_stops(world.robot(), &base);
+                    let stops = chain_rules::widened_stops(world.robot(), &base);
                     Some(stops.map_err(Failure::input)?)
                 }
             },
         };
-        let mut pricing = Self {
-            robot,
-            world,
+        let terms = PullTerms {
             aim,
-            base,
-            duration,
             source,
+            base,
             share,
             rules,
+            duration,
             body_share,
-            record: Value::Null,
+            body_share_of,
         };
-        pricing.record = pricing.record(args, share_of.as_deref());
-        Ok(pricing)
-    }
-
-    /// The terms of the price.
-    pub(crate) fn terms(&self) -> Terms<'_> {
-        Terms {
-            aim: self.aim,
-            source: match &self.source {
-                LoadedSource::Map { map, .. } => Source::Map(map),
-                LoadedSource::Statics => Source::Statics,
-                LoadedSource::Dynamics => Source::Dynamics,
-            },
-            base: &self.base,
-            share: self.share,
-            rules: self.rules.clone(),
-            duration: self.duration,
-            body_share: self.body_share,
-        }
-    }
-
-    /// The source in a word: of a file its name, wherever it is.
-    pub(crate) fn source_name(given: &str) -> &str {
-        let file = Path::new(given).file_name().and_then(|name| name.to_str());
-        file.unwrap_or(given)
-    }
-
-    /// Whether gaits are simulated one by one.
-    pub(crate) fn is_dynamic(&self) -> bool {
-        matches!(self.source, LoadedSource::Dynamics)
-    }
-
-    /// The torque objective, the published one's weights included.
-    pub(crate) fn objective(&self) -> Objective {
-        match self.aim {
-            Aim::Graded(objective) => objective,
-            Aim::Published(_) => Objective::Torque {
-                weights: prone::cost::published::WEIGHTS,
-            },
-        }
-    }
-
-    fn record(&self, args: &PricingArgs, share_of: Option<&str>) -> Value {
-        let source = match &self.source {
-            LoadedSource::Map { hash, .. } => json!({ "file": args.source, "sha256": hash }),
-            LoadedSource::Statics => json!("statics"),
-            LoadedSource::Dynamics => json!("dynamics"),
-        };
-        let aim = match self.aim {
-            Aim::Published(rules) => json!({
-                "objective": "published",
-                "hip_threshold_mm": rules.hip_threshold * 1e3,
-                "limit_tolerance_rad": rules.limit_tolerance,
-            }),
-            Aim::Graded(objective) => json!({
-                "objective": objective.name(),
-                "weights": match objective {
-                    Objective::Torque { weights } => Some(weights),
-                    _ => None,
-                },
-                "per": self.share.name(),
-                "duration_s": self.duration.seconds(),
-                "rate_deg_per_phase": Some(self.rules.rate.to_degrees()).filter(|r| r.is_finite()),
-                "clearance": match self.rules.clearance {
-                    Clearance::Free => json!("none"),
-                    Clearance::Hip(height) => json!({ "hip_mm": height * 1e3 }),
-                    Clearance::Body(height) => json!({ "body_mm": height * 1e3 }),
-                },
-                "limits": if self.rules.stops.is_some() { "base" } else { "none" },
-                "body_share_of": share_of,
-                "body_share_percent": share_of.map(|_| self.body_share * 100.0),
-                "regime": self.world.regime().name,
-                "start": "the gait's own first pose, settled",
-            }),
-        };
-        json!({
-            "aim": aim,
-            "source": source,
-            "from": self.base.name,
-            "mapping": self.base.mapping.name(),
-            "arm": self.base.arm.name(),
-            "robot": crate::robot::said(&self.robot),
+        Ok(Self {
+            robot,
+            world,
+            terms,
         })
     }
 }
 
 /// The objective; options of the other kind are refused, not ignored.
-fn aim(args: &PricingArgs) -> Result<Aim, Failure> {
+fn aim(args: &PricingArgs) -> Result<PullAim, Failure> {
     if matches!(
         args.objective,
         ObjectiveName::Advance | ObjectiveName::Speed
@@ -233,7 +139,7 @@ fn aim(args: &PricingArgs) -> Result<Aim, Failure> {
             "does not go with --objective published, which has rules of its own",
         )?;
         let published = PublishedRules::PUBLISHED;
-        return Ok(Aim::Published(PublishedRules {
+        return Ok(PullAim::Published(PublishedRules {
             hip_threshold: args
                 .hip_threshold_mm
                 .map_or(published.hip_threshold, |mm| mm / 1e3),
@@ -263,7 +169,7 @@ fn aim(args: &PricingArgs) -> Result<Aim, Failure> {
             )));
         }
     };
-    Ok(Aim::Graded(match args.objective {
+    Ok(PullAim::Graded(match args.objective {
         ObjectiveName::Torque | ObjectiveName::Published => Objective::Torque { weights },
         other => {
             refuse(
@@ -299,15 +205,15 @@ fn base(
     Ok(other.cloned().unwrap_or(usual))
 }
 
-fn source(given: &str) -> Result<LoadedSource, Failure> {
+fn source(given: &str) -> Result<Source, Failure> {
     match given {
         "cycle" => {
             return Err(Failure::Input(anyhow!(
                 "--source cycle is for prone optimize: prone crawl run prices a cycle"
             )));
         }
-        "statics" => return Ok(LoadedSource::Statics),
-        "dynamics" => return Ok(LoadedSource::Dynamics),
+        "statics" => return Ok(Source::Statics),
+        "dynamics" => return Ok(Source::Dynamics),
         _ => {}
     }
     let path = Path::new(given);
@@ -319,28 +225,29 @@ fn source(given: &str) -> Result<LoadedSource, Failure> {
     let text = crate::torque_map::text(path)?;
     let map =
         torque_map::parse(&text).map_err(|error| Failure::Input(anyhow!("{given}: {error}")))?;
-    Ok(LoadedSource::Map {
-        map: Box::new(map),
-        hash: text_file::sha256(&[&text]),
+    Ok(Source::Map {
+        map: Arc::new(map),
+        file: given.to_owned(),
+        sha256: text_file::sha256(&[&text]),
     })
 }
 
 fn clearance(
     args: &PricingArgs,
-    source: &LoadedSource,
+    source: &Source,
     world: &World,
     base: &Gait,
 ) -> Result<Clearance, Failure> {
     let default = match source {
         // There the share of the weight on the body says what is low.
-        LoadedSource::Dynamics => ClearanceName::None,
+        Source::Dynamics => ClearanceName::None,
         _ => ClearanceName::Base,
     };
     Ok(match args.clearance.unwrap_or(default) {
         ClearanceName::None => Clearance::Free,
         ClearanceName::Hip(height) => Clearance::Hip(height),
         ClearanceName::Body(height) => Clearance::Body(height),
-        ClearanceName::Base => pricer::lowest_hip(world, base).map_err(Failure::input)?,
+        ClearanceName::Base => pull_cost::lowest_hip(world, base).map_err(Failure::input)?,
     })
 }
 

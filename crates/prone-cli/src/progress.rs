@@ -6,63 +6,96 @@ use std::path::PathBuf;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use prone_record::search::Search;
-use prone_study::export::film;
-use prone_study::pulls::Observer;
-use prone_study::torque_map::build;
+use prone_study::watch::{self, Watch};
 
 use crate::Failure;
 use crate::interrupt;
 
-/// Progress of a study.
+/// Steps of work of one kind, with a word for it.
+const STEPS: &str = "{msg:<12} {bar:30} {pos}/{len}  {elapsed}";
+/// Evaluations of a search.
+const SEARCH: &str = "searching {bar:30} {pos}/{len} evaluations  {elapsed}, {eta} left  {msg}";
+
+/// Progress of any work; Ctrl-C ends it.
 pub(crate) struct Progress {
     bar: ProgressBar,
+    styles: Styles,
+    /// What is done once all steps are.
+    then: Option<&'static str>,
+    /// Where earlier steps would come from.
+    journal: PathBuf,
+}
+
+struct Styles {
+    steps: ProgressStyle,
+    search: ProgressStyle,
 }
 
 impl Progress {
-    /// Shows progress in `phases` steps.
-    pub(crate) fn new(phases: usize) -> Result<Self, Failure> {
-        let bar = bar(phases, "simulating")?;
-        Ok(Self { bar })
+    /// Shows simulations, and drawing after them.
+    pub(crate) fn simulating(phases: usize) -> Result<Self, Failure> {
+        let progress = Self::new(phases, "simulating")?;
+        let then = Some("drawing");
+        Ok(Self { then, ..progress })
+    }
+
+    /// Shows rows of a torque map; `journal` is where earlier ones would come from.
+    pub(crate) fn measuring(rows: usize, journal: PathBuf) -> Result<Self, Failure> {
+        let progress = Self::new(rows, "measuring")?;
+        Ok(Self {
+            journal,
+            ..progress
+        })
+    }
+
+    /// Shows pictures of a film.
+    pub(crate) fn filming(pictures: usize) -> Result<Self, Failure> {
+        Self::new(pictures, "filming")
+    }
+
+    /// Shows a search, and simulations after it.
+    pub(crate) fn searching() -> Result<Self, Failure> {
+        Self::simulating(0)
+    }
+
+    fn new(steps: usize, message: &'static str) -> Result<Self, Failure> {
+        let style = |template| ProgressStyle::with_template(template).map_err(Failure::work);
+        let styles = Styles {
+            steps: style(STEPS)?,
+            search: style(SEARCH)?,
+        };
+        // indicatif draws on standard error, and only if that is a terminal.
+        let progress = Self {
+            bar: ProgressBar::new(0),
+            styles,
+            then: None,
+            journal: PathBuf::new(),
+        };
+        progress.begin(steps, message);
+        Ok(progress)
     }
 
     /// All work is done.
     pub(crate) fn finish(&self) {
         self.bar.finish_and_clear();
     }
-}
 
-impl Observer for Progress {
-    fn phase_done(&self) {
-        self.bar.inc(1);
-        if self.bar.position() == self.bar.length().unwrap_or(0) {
-            self.bar.set_message("drawing");
-            self.bar.tick();
+    fn begin(&self, steps: usize, message: &'static str) {
+        self.bar.set_style(self.styles.steps.clone());
+        self.bar.set_length(steps as u64);
+        self.bar.set_position(0);
+        self.bar.set_message(message);
+        self.bar.tick();
+    }
+
+    /// After a generation, or before the first one.
+    fn searched(&self, search: &Search) {
+        if self.bar.length() != Some(search.allowance()) || self.bar.position() == 0 {
+            self.bar.set_style(self.styles.search.clone());
+            self.bar.set_length(search.allowance());
+            self.bar.set_position(search.evaluations());
+            self.bar.reset_eta();
         }
-    }
-
-    fn stop(&self) -> bool {
-        interrupt::requested()
-    }
-}
-
-/// Progress of a search, in evaluations.
-pub(crate) struct SearchProgress {
-    bar: ProgressBar,
-}
-
-impl SearchProgress {
-    /// Shows how far a search is.
-    pub(crate) fn new(search: &Search) -> Result<Self, Failure> {
-        let bar = ProgressBar::new(search.allowance());
-        let template = "searching {bar:30} {pos}/{len} evaluations  {elapsed}, {eta} left  {msg}";
-        bar.set_style(ProgressStyle::with_template(template).map_err(Failure::work)?);
-        bar.set_position(search.evaluations());
-        bar.reset_eta();
-        Ok(Self { bar })
-    }
-
-    /// After a generation.
-    pub(crate) fn show(&self, search: &Search) {
         self.bar.set_position(search.evaluations());
         if let Some((run, best)) = search.best() {
             let (violation, value) = (best.score.violation(), best.score.value());
@@ -73,32 +106,6 @@ impl SearchProgress {
         }
     }
 
-    /// All is searched.
-    pub(crate) fn finish(&self) {
-        self.bar.finish_and_clear();
-    }
-}
-
-/// Progress of a torque map.
-pub(crate) struct RowProgress {
-    bar: ProgressBar,
-    journal: PathBuf,
-}
-
-impl RowProgress {
-    /// Shows progress in rows; `journal` is where earlier ones would come from.
-    pub(crate) fn new(rows: usize, journal: PathBuf) -> Result<Self, Failure> {
-        let bar = bar(rows, "measuring")?;
-        Ok(Self { bar, journal })
-    }
-
-    /// All work is done.
-    pub(crate) fn finish(&self) {
-        self.bar.finish_and_clear();
-    }
-}
-
-impl build::Observer for RowProgress {
     fn taken_over(&self, rows: usize) {
         if rows > 0 {
             let all = self.bar.length().unwrap_or(0);
@@ -113,51 +120,26 @@ impl build::Observer for RowProgress {
         }
         self.bar.set_position(rows as u64);
     }
+}
 
-    fn row_done(&self) {
-        self.bar.inc(1);
-    }
-
+impl Watch for Progress {
     fn stop(&self) -> bool {
         interrupt::requested()
     }
-}
 
-/// Progress of a film.
-pub(crate) struct FilmProgress {
-    bar: ProgressBar,
-}
-
-impl FilmProgress {
-    /// Shows progress in pictures.
-    pub(crate) fn new(pictures: usize) -> Result<Self, Failure> {
-        let bar = bar(pictures, "filming")?;
-        Ok(Self { bar })
+    fn progress(&self, progress: &watch::Progress<'_>) {
+        match *progress {
+            watch::Progress::Simulating(steps) => self.begin(steps, "simulating"),
+            watch::Progress::Searching(search) => self.searched(search),
+            watch::Progress::TakenOver(steps) => self.taken_over(steps),
+            watch::Progress::Done(steps) => {
+                self.bar.inc(steps as u64);
+                let all = self.bar.position() == self.bar.length().unwrap_or(0);
+                if let (true, Some(then)) = (all, self.then) {
+                    self.bar.set_message(then);
+                    self.bar.tick();
+                }
+            }
+        }
     }
-
-    /// All work is done.
-    pub(crate) fn finish(&self) {
-        self.bar.finish_and_clear();
-    }
-}
-
-impl film::Observer for FilmProgress {
-    fn pictures_done(&self, count: usize) {
-        self.bar.inc(count as u64);
-    }
-
-    fn stop(&self) -> bool {
-        interrupt::requested()
-    }
-}
-
-fn bar(steps: usize, message: &'static str) -> Result<ProgressBar, Failure> {
-    // indicatif draws on standard error, and only if that is a terminal.
-    let bar = ProgressBar::new(steps as u64);
-    let style = ProgressStyle::with_template("{msg:<12} {bar:30} {pos}/{len}  {elapsed}")
-        .map_err(Failure::work)?;
-    bar.set_style(style);
-    bar.set_message(message);
-    bar.tick();
-    Ok(bar)
 }

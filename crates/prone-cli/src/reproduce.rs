@@ -53,7 +53,7 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<(), Failure> {
         table: table.as_ref(),
     };
     let crawls = table.as_ref().map_or(0, |_| published::TABLE_CRAWLS.len());
-    let progress = Progress::new(plan.phases() + crawls)?;
+    let progress = Progress::simulating(plan.phases() + crawls)?;
     let started = Instant::now();
     let reproduction = pool.install(|| reproduce::run(&study, &program, &progress));
     progress.finish();

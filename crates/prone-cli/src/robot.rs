@@ -7,7 +7,6 @@ use std::path::Path;
 
 use anyhow::anyhow;
 use serde::Serialize;
-use serde_json::{Value, json};
 
 use prone::regime::Regime;
 use prone_files::compiled_robot::CompiledRobotError;
@@ -31,19 +30,6 @@ pub(crate) fn files(name: Option<&Path>) -> Result<RobotFiles, Failure> {
         )),
         Some(name) => RobotFiles::named(name).map_err(Failure::input),
     }
-}
-
-/// What a search says of its robot.
-pub(crate) fn said(robot: &LoadedRobot) -> Value {
-    let files = robot.files();
-    let version = files.version.as_ref();
-    json!({
-        "name": robot.robot().name,
-        "family": version.map(|version| &version.family),
-        "version": version.map(|version| &version.version),
-        "folder": files.folder,
-        "sha256": files.hash(),
-    })
 }
 
 pub(crate) fn check(args: &RobotCheckArgs) -> Result<(), Failure> {

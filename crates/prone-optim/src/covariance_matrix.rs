@@ -25,7 +25,7 @@ use std::cell::RefCell;
 use cmaes::{CMAESOptions, DVector};
 use serde::{Deserialize, Serialize};
 
-use crate::{BudgetSpent, Evaluator, Interval, Problem, Random, Score, Solver};
+use crate::{Evaluator, Interval, NoScores, Random, Score, Solver};
 
 /// Parameters of the searches.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -104,7 +104,7 @@ impl CovarianceMatrix {
 }
 
 impl Solver for CovarianceMatrix {
-    fn advance<P: Problem>(&mut self, evaluator: &mut Evaluator<'_, P>) -> Result<(), BudgetSpent> {
+    fn advance(&mut self, evaluator: &mut Evaluator<'_>) -> Result<(), NoScores> {
         let bounds = evaluator.bounds();
         let most = self.options.evaluations_per_search;
         let going_on = self.search.take();
@@ -117,7 +117,7 @@ impl Solver for CovarianceMatrix {
             (search, shares)
         } else {
             let search = self.begin(bounds.len());
-            let shares = search.ask()?.ok_or(BudgetSpent)?;
+            let shares = search.ask()?.ok_or(NoScores::BudgetSpent)?;
             (search, shares)
         };
         let place = |(interval, &share): (&Interval, &f64)| interval.at(fold(share));
@@ -141,7 +141,7 @@ impl Solver for CovarianceMatrix {
 impl Search {
     /// The next generation's points, in the crate's coordinates; `None` where it has ended. Options
     /// that the crate refuses (no variables, a step of zero) leave nothing to search.
-    fn ask(&self) -> Result<Option<Vec<Vec<f64>>>, BudgetSpent> {
+    fn ask(&self) -> Result<Option<Vec<Vec<f64>>>, NoScores> {
         let tape = RefCell::new((self.told.iter(), Vec::with_capacity(self.population)));
         let play = |shares: &DVector<f64>| {
             let (told, asked) = &mut *tape.borrow_mut();
@@ -160,7 +160,7 @@ impl Search {
             .population_size(self.population)
             .seed(self.seed)
             .build(play)
-            .map_err(|_| BudgetSpent)?;
+            .map_err(|_| NoScores::BudgetSpent)?;
         for _ in 0..self.told.len() / self.population {
             if search.next().is_some() {
                 return Ok(None);

@@ -32,7 +32,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{BudgetSpent, Candidate, Evaluator, Interval, Problem, Random, Score, Solver};
+use crate::{Candidate, Evaluator, Interval, NoScores, Random, Score, Solver};
 
 /// Parameters of differential evolution.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -116,7 +116,7 @@ impl DifferentialEvolution {
         }
     }
 
-    fn start<P: Problem>(&mut self, evaluator: &mut Evaluator<'_, P>) -> Result<(), BudgetSpent> {
+    fn start(&mut self, evaluator: &mut Evaluator<'_>) -> Result<(), NoScores> {
         let bounds = evaluator.bounds();
         if let Some(best) = self.members.first() {
             let earlier = self.earlier_best.get_or_insert(best.score);
@@ -256,7 +256,7 @@ impl DifferentialEvolution {
 }
 
 impl Solver for DifferentialEvolution {
-    fn advance<P: Problem>(&mut self, evaluator: &mut Evaluator<'_, P>) -> Result<(), BudgetSpent> {
+    fn advance(&mut self, evaluator: &mut Evaluator<'_>) -> Result<(), NoScores> {
         let bounds = evaluator.bounds();
         if self.members.is_empty() || self.stands_still(bounds) {
             return self.start(evaluator);

@@ -1,18 +1,23 @@
-//! The one door through which a solver asks for scores: counts, remembers the best, spreads the
-//! work over threads.
+//! The one door through which a solver asks for scores: counts, remembers the best, and puts the
+//! results of a [`Scorer`] into the order of the points.
 
-use rayon::prelude::*;
+use crate::scorer::in_order;
+use crate::{Candidate, Interval, Query, QueryId, Score, Scorer};
 
-use crate::{Candidate, Interval, Problem, Score};
-
-/// More evaluations were asked for than the budget has left; none was done.
+/// Why a generation has no scores; the solver's state is then discarded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("the evaluation budget is spent")]
-pub struct BudgetSpent;
+pub enum NoScores {
+    /// More evaluations were asked for than the budget has left; none was done.
+    #[error("the evaluation budget is spent")]
+    BudgetSpent,
+    /// The scorer did not answer for every point.
+    #[error("the scorer was stopped before every point had a result")]
+    CutShort,
+}
 
 /// Scores points of one generation.
-pub struct Evaluator<'p, P: Problem> {
-    problem: &'p P,
+pub struct Evaluator<'p> {
+    scorer: &'p dyn Scorer,
     allowance: u64,
     tally: Tally,
 }
@@ -28,10 +33,10 @@ pub(crate) struct Tally {
     pub(crate) best: Option<Candidate>,
 }
 
-impl<'p, P: Problem> Evaluator<'p, P> {
-    pub(crate) fn new(problem: &'p P, allowance: u64) -> Self {
+impl<'p> Evaluator<'p> {
+    pub(crate) fn new(scorer: &'p dyn Scorer, allowance: u64) -> Self {
         Self {
-            problem,
+            scorer,
             allowance,
             tally: Tally::default(),
         }
@@ -39,7 +44,7 @@ impl<'p, P: Problem> Evaluator<'p, P> {
 
     /// Limits of each variable.
     pub fn bounds(&self) -> &'p [Interval] {
-        self.problem.bounds()
+        self.scorer.bounds()
     }
 
     /// Evaluations left.
@@ -50,17 +55,18 @@ impl<'p, P: Problem> Evaluator<'p, P> {
     /// Scores points, in order.
     ///
     /// # Errors
-    /// [`BudgetSpent`] where fewer evaluations are left than points; none is scored then.
-    pub fn evaluate(&mut self, points: &[Vec<f64>]) -> Result<Vec<Score>, BudgetSpent> {
+    /// [`NoScores`] where fewer evaluations are left than points, and none is scored then, or where
+    /// the scorer was stopped.
+    pub fn evaluate(&mut self, points: &[Vec<f64>]) -> Result<Vec<Score>, NoScores> {
         if points.len() as u64 > self.remaining() {
-            return Err(BudgetSpent);
+            return Err(NoScores::BudgetSpent);
         }
-        let score = |point: &Vec<f64>| self.problem.evaluate(point);
-        let scores: Vec<Score> = match points {
-            // Not worth another thread's attention.
-            [point] => vec![score(point)],
-            _ => points.par_iter().map(score).collect(),
+        let query = |(id, point): (u64, &Vec<f64>)| Query {
+            id: QueryId(id),
+            point: point.clone(),
         };
+        let batch: Vec<Query> = (0..).zip(points).map(query).collect();
+        let scores = in_order(&batch, self.scorer.score(&batch)).ok_or(NoScores::CutShort)?;
         for (point, &score) in points.iter().zip(&scores) {
             self.tally.count(point, score);
         }

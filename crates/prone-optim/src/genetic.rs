@@ -17,7 +17,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{BudgetSpent, Candidate, Evaluator, Interval, Problem, Random, Solver};
+use crate::{Candidate, Evaluator, Interval, NoScores, Random, Solver};
 
 /// Parameters of the genetic algorithm.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -154,7 +154,7 @@ impl Solver for Genetic {
         clippy::cast_sign_loss,
         reason = "a share of the population is below its number"
     )]
-    fn advance<P: Problem>(&mut self, evaluator: &mut Evaluator<'_, P>) -> Result<(), BudgetSpent> {
+    fn advance(&mut self, evaluator: &mut Evaluator<'_>) -> Result<(), NoScores> {
         let bounds = evaluator.bounds();
         let points = if self.population.is_empty() {
             self.first(bounds)

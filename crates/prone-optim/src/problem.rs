@@ -4,13 +4,28 @@ use std::cmp::Ordering;
 
 use serde::{Deserialize, Serialize};
 
+use crate::Failure;
+
 /// A problem: lower scores are better.
 pub trait Problem: Sync {
     /// Limits of each variable; points outside are never asked for.
     fn bounds(&self) -> &[Interval];
 
-    /// The score of a point. Must depend on nothing but the point.
-    fn evaluate(&self, point: &[f64]) -> Score;
+    /// The score of a point, or why it has none. Depends on nothing but the point.
+    ///
+    /// # Errors
+    /// [`Failure`].
+    fn evaluate(&self, point: &[f64]) -> Result<Score, Failure>;
+}
+
+impl<P: Problem> Problem for &P {
+    fn bounds(&self) -> &[Interval] {
+        (**self).bounds()
+    }
+
+    fn evaluate(&self, point: &[f64]) -> Result<Score, Failure> {
+        (**self).evaluate(point)
+    }
 }
 
 /// Limits of a variable.
@@ -80,6 +95,12 @@ pub struct Score {
 }
 
 impl Score {
+    /// That of a point that has none: further from feasibility than any other.
+    pub const WORST: Self = Self {
+        violation: f64::MAX,
+        value: 0.0,
+    };
+
     /// A violation (not negative) and a value.
     pub fn new(violation: f64, value: f64) -> Self {
         Self {

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::evaluator::Tally;
-use crate::{Candidate, Evaluator, Generation, Observer, Problem, Score, Solver};
+use crate::{Candidate, Evaluator, Generation, NoScores, Observer, Score, Scorer, Solver};
 
 /// When to stop.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -39,6 +39,8 @@ pub enum StopReason {
     Target,
     /// The observer said so.
     Observer,
+    /// The scorer was stopped within a generation, which is given up; the run can go on.
+    Scorer,
 }
 
 /// A run and its own checkpoint: serialise it, read it back, go on.
@@ -62,9 +64,9 @@ impl<S: Solver> Run<S> {
     }
 
     /// Goes on until the termination or the observer ends it.
-    pub fn proceed<P: Problem>(
+    pub fn proceed(
         &mut self,
-        problem: &P,
+        scorer: &dyn Scorer,
         termination: &Termination,
         observer: &mut impl Observer,
     ) -> StopReason {
@@ -73,10 +75,12 @@ impl<S: Solver> Run<S> {
                 return reason;
             }
             let allowance = termination.evaluations.saturating_sub(self.evaluations);
-            let mut evaluator = Evaluator::new(problem, allowance);
+            let mut evaluator = Evaluator::new(scorer, allowance);
             let mut solver = self.solver.clone();
-            if solver.advance(&mut evaluator).is_err() {
-                return StopReason::Evaluations;
+            match solver.advance(&mut evaluator) {
+                Ok(()) => {}
+                Err(NoScores::BudgetSpent) => return StopReason::Evaluations,
+                Err(NoScores::CutShort) => return StopReason::Scorer,
             }
             self.solver = solver;
             let Some(record) = self.record(evaluator.into_tally()) else {

@@ -1,6 +1,6 @@
 //! How points are proposed.
 
-use crate::{BudgetSpent, Evaluator, Problem};
+use crate::{Evaluator, NoScores};
 
 /// A method of search, with all of its state: population, memories and random numbers.
 ///
@@ -10,8 +10,8 @@ pub trait Solver: Clone {
     /// Does one generation: proposes points, has them scored, learns from the scores.
     ///
     /// # Errors
-    /// [`BudgetSpent`], passed on from [`Evaluator::evaluate`]; the state is then discarded.
-    fn advance<P: Problem>(&mut self, evaluator: &mut Evaluator<'_, P>) -> Result<(), BudgetSpent>;
+    /// [`NoScores`], passed on from [`Evaluator::evaluate`]; the state is then discarded.
+    fn advance(&mut self, evaluator: &mut Evaluator<'_>) -> Result<(), NoScores>;
 
     /// How often the search has begun anew.
     fn restarts(&self) -> u64 {

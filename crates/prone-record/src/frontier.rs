@@ -6,11 +6,12 @@ pub use setting_kind::{SettingKind, UnknownSetting};
 
 use serde::{Deserialize, Serialize};
 
+use crate::gait_search::Broken;
 use crate::search::Search;
 use crate::tables::{finish, number};
 
 /// What is minimised.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum CycleObjective {
     /// ∫ Σ (τ / nominal torque)² dt per metre, s/m.
@@ -46,7 +47,7 @@ impl CycleObjective {
 }
 
 /// All searches of a frontier.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Frontier {
     /// What was searched.
     pub objective: CycleObjective,
@@ -59,7 +60,7 @@ pub struct Frontier {
 }
 
 /// Another cycle in the settings of a confirmation.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Compared {
     /// Its name.
     pub gait: String,
@@ -68,7 +69,7 @@ pub struct Compared {
 }
 
 /// What one search found.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Found {
     /// The ceiling, mm, where there is one.
     pub ceiling_mm: Option<f64>,
@@ -82,6 +83,9 @@ pub struct Found {
     pub value: Option<f64>,
     /// What it breaks of the rules of the search, in shares of their limits.
     pub violation: f64,
+    /// The rules that are broken.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub broken: Vec<Broken>,
     /// Why it could not be crawled in the settings of the search, where it could not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub refused: Option<String>,
@@ -116,7 +120,7 @@ impl Found {
 }
 
 /// What a confirmation says of a cycle under a ceiling.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Confirmed {
     /// Whether everything that was asked holds.
     pub holds: bool,
@@ -151,6 +155,26 @@ pub struct ConfirmedSetting {
     pub kept: Option<f64>,
     /// Why it cannot be crawled.
     pub refused: Option<String>,
+}
+
+impl ConfirmedSetting {
+    /// A setting of which nothing is known.
+    pub const fn unknown(setting: SettingKind) -> Self {
+        Self {
+            setting,
+            mm_per_cycle: None,
+            mm_per_s: None,
+            yaw_deg: None,
+            top_mm: None,
+            top_part: None,
+            heat_per_metre_s: None,
+            peak_torque_over_rated: None,
+            peak_joint: None,
+            demanded_shoulder_nm: None,
+            kept: None,
+            refused: None,
+        }
+    }
 }
 
 /// `frontier.csv`: one row per ceiling, seed and setting.

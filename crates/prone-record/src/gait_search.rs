@@ -1,6 +1,8 @@
 //! What a search of pulls leaves behind: `result.json`, `history.csv`, `confirmation.csv`.
 
-use serde::Serialize;
+use std::borrow::Cow;
+
+use serde::{Deserialize, Serialize};
 
 use crate::curves_info::CurvesInfo;
 use crate::search::Search;
@@ -79,10 +81,10 @@ pub struct Priced {
 }
 
 /// A broken rule.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Broken {
     /// Its name.
-    pub rule: &'static str,
+    pub rule: Cow<'static, str>,
     /// How often.
     pub count: u32,
     /// By how much in all, shares of the limit; for `published` the count once more.
@@ -160,12 +162,32 @@ pub struct Verdict {
     pub worst_ratio: f64,
 }
 
-impl Confirmation {
-    /// Whether the found gait costs less than the first one everywhere in a regime.
+impl Outcome {
+    /// Whether the found gait costs less than another everywhere in a regime.
     pub fn holds(&self, regime: &str, base: &str) -> bool {
         let mut verdicts = self.verdicts.iter();
         verdicts
             .any(|v| v.regime == regime && v.against == base && v.of > 0 && v.cheaper_at == v.of)
+    }
+}
+
+impl Verdict {
+    /// In words, for the screen and for the gait's file.
+    pub fn sentence(&self) -> String {
+        let Self {
+            regime,
+            against,
+            cheaper_at,
+            of,
+            best_ratio,
+            worst_ratio,
+        } = self;
+        if *of == 0 {
+            return format!("{regime}: not compared with {against}.");
+        }
+        format!(
+            "{regime}: {best_ratio:.3} to {worst_ratio:.3} of {against}, cheaper at {cheaper_at} of {of} durations."
+        )
     }
 }
 

@@ -23,6 +23,7 @@ pub mod record_info;
 pub mod recorded;
 pub mod resumption;
 pub mod search;
+pub mod search_plan;
 pub mod single_file;
 pub mod statistics;
 pub mod tables;

@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 
 use prone_optim::{
     Candidate, CovarianceMatrix, CovarianceMatrixOptions, DifferentialEvolution,
-    DifferentialEvolutionOptions, Generation, Genetic, GeneticOptions, History, Problem, Run,
+    DifferentialEvolutionOptions, Generation, Genetic, GeneticOptions, History, Run, Scorer,
     StopReason, Termination,
 };
 use serde::{Deserialize, Serialize};
@@ -138,17 +138,18 @@ impl Search {
     }
 
     /// Goes on until every run is at its end. `between` sees the search after each generation and
-    /// may stop it.
-    pub fn proceed<P: Problem>(
+    /// may stop it; so does a scorer that leaves points without a result, and the generation is then
+    /// done again later.
+    pub fn proceed(
         &mut self,
-        problem: &P,
+        scorer: &dyn Scorer,
         mut between: impl FnMut(&Self) -> ControlFlow<()>,
     ) -> SearchEnd {
         for index in 0..self.runs.len() {
             while self.runs[index].stopped.is_none() {
                 let budget = self.budget;
-                self.runs[index].advance(problem, budget);
-                if between(self).is_break() {
+                let reason = self.runs[index].advance(scorer, budget);
+                if reason == StopReason::Scorer || between(self).is_break() {
                     return SearchEnd::Interrupted;
                 }
             }
@@ -188,17 +189,19 @@ impl Search {
 }
 
 impl SeededRun {
-    /// One generation.
-    fn advance<P: Problem>(&mut self, problem: &P, budget: u64) {
+    /// One generation, and why the run paused after it or ended.
+    fn advance(&mut self, scorer: &dyn Scorer, budget: u64) -> StopReason {
         let next = self.state.generation() + 1;
         let own_end = self.state.own_generations();
         let termination = Termination {
             generations: Some(own_end.map_or(next, |own| next.min(own))),
             ..Termination::after(budget)
         };
-        let reason = self.state.proceed(problem, &termination, &mut self.history);
+        let reason = self.state.proceed(scorer, &termination, &mut self.history);
         let goes_on = self.state.generation() == next && own_end.is_none_or(|own| next < own);
-        self.stopped = (!goes_on).then_some(reason);
+        let ended = !goes_on && reason != StopReason::Scorer;
+        self.stopped = ended.then_some(reason);
+        reason
     }
 
     /// The best point so far.
@@ -251,23 +254,25 @@ impl State {
         matches!(self, Self::Genetic(_)).then(|| u64::from(GeneticOptions::default().generations))
     }
 
-    fn proceed<P: Problem>(
+    fn proceed(
         &mut self,
-        problem: &P,
+        scorer: &dyn Scorer,
         termination: &Termination,
         history: &mut History,
     ) -> StopReason {
         match self {
-            Self::DifferentialEvolution(run) => run.proceed(problem, termination, history),
-            Self::CovarianceMatrix(run) => run.proceed(problem, termination, history),
-            Self::Genetic(run) => run.proceed(problem, termination, history),
+            Self::DifferentialEvolution(run) => run.proceed(scorer, termination, history),
+            Self::CovarianceMatrix(run) => run.proceed(scorer, termination, history),
+            Self::Genetic(run) => run.proceed(scorer, termination, history),
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use prone_optim::{Interval, Score};
+    use std::cell::Cell;
+
+    use prone_optim::{Answer, Failure, Interval, Problem, Query, Score, Threads};
 
     use super::*;
 
@@ -285,15 +290,15 @@ mod tests {
             &self.0
         }
 
-        fn evaluate(&self, point: &[f64]) -> Score {
+        fn evaluate(&self, point: &[f64]) -> Result<Score, Failure> {
             let value = point.iter().map(|x| x * x).sum();
-            Score::new((1.0 - point[0]).max(0.0), value)
+            Ok(Score::new((1.0 - point[0]).max(0.0), value))
         }
     }
 
     fn finished(solver: Solver) -> Search {
         let mut search = Search::new(solver, 5, 2, 2000);
-        let end = search.proceed(&Bowl::new(), |_| ControlFlow::Continue(()));
+        let end = search.proceed(&Threads(Bowl::new()), |_| ControlFlow::Continue(()));
         assert_eq!(end, SearchEnd::Finished);
         search
     }
@@ -309,7 +314,7 @@ mod tests {
             let mut parts = Search::new(solver, 5, 2, 2000);
             let mut steps = 0;
             loop {
-                let end = parts.proceed(&Bowl::new(), |_| {
+                let end = parts.proceed(&Threads(Bowl::new()), |_| {
                     steps += 1;
                     if steps % 7 == 0 {
                         ControlFlow::Break(())
@@ -337,10 +342,10 @@ mod tests {
         ] {
             let whole = finished(solver);
             let mut raised = Search::new(solver, 5, 2, 500);
-            raised.proceed(&Bowl::new(), |_| ControlFlow::Continue(()));
+            raised.proceed(&Threads(Bowl::new()), |_| ControlFlow::Continue(()));
             assert!(raised.evaluations() <= 1000);
             raised.allow(2000).unwrap();
-            raised.proceed(&Bowl::new(), |_| ControlFlow::Continue(()));
+            raised.proceed(&Threads(Bowl::new()), |_| ControlFlow::Continue(()));
             assert_eq!(whole, raised, "{solver:?}");
             let refused = raised.allow(1999).unwrap_err();
             assert_eq!((refused.budget, refused.earlier), (1999, 2000));
@@ -357,10 +362,49 @@ mod tests {
         assert_eq!(run.last().unwrap().best, best.score);
     }
 
+    /// A scorer that leaves the last point of every fifth batch without a result, as one does that is
+    /// stopped at work.
+    struct Stopped {
+        bowl: Threads<Bowl>,
+        batches: Cell<u64>,
+    }
+
+    impl Scorer for Stopped {
+        fn bounds(&self) -> &[Interval] {
+            self.bowl.bounds()
+        }
+
+        fn score(&self, batch: &[Query]) -> Vec<Answer> {
+            let mut answers = self.bowl.score(batch);
+            self.batches.set(self.batches.get() + 1);
+            if self.batches.get().is_multiple_of(5) {
+                answers.pop();
+            }
+            answers
+        }
+    }
+
+    #[test]
+    fn a_generation_that_is_cut_short_is_done_again() {
+        for solver in [Solver::DifferentialEvolution, Solver::CovarianceMatrix] {
+            let scorer = Stopped {
+                bowl: Threads(Bowl::new()),
+                batches: Cell::new(0),
+            };
+            let mut search = Search::new(solver, 5, 2, 2000);
+            let mut stops = 0;
+            while search.proceed(&scorer, |_| ControlFlow::Continue(())) == SearchEnd::Interrupted {
+                stops += 1;
+            }
+            assert!(stops > 3, "{stops}");
+            assert_eq!(search, finished(solver), "{solver:?}");
+        }
+    }
+
     #[test]
     fn the_genetic_algorithm_ends_after_its_own_generations() {
         let mut search = Search::new(Solver::Genetic, 1, 1, 1_000_000);
-        search.proceed(&Bowl::new(), |_| ControlFlow::Continue(()));
+        search.proceed(&Threads(Bowl::new()), |_| ControlFlow::Continue(()));
         assert_eq!(search.runs()[0].history.0.len(), 80);
     }
 }

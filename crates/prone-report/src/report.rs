@@ -45,6 +45,7 @@ use prone_record::head::Head;
 use prone_record::output::{Artefacts, RUN_FILE, json};
 use prone_record::program::Program;
 use prone_record::record_info::RecordInfo;
+use prone_record::search_plan::SearchPlan;
 use search_run::SearchRun;
 use shown::Shown;
 
@@ -280,11 +281,10 @@ fn read(
     let run = match folder.head.command.as_str() {
         "crawl run" | "reproduce crawl" => Run::Crawl(Box::new(CrawlRun::read(folder)?)),
         "reproduce pull" => Run::Pull(Box::new(PullRun::read(folder)?)),
-        "optimize" if folder.said("/source").as_deref() == Some("cycle") => {
-            Run::Drawn(Box::new(DrawnRun::cycles(folder)?))
-        }
-        "optimize" => Run::Search(Box::new(SearchRun::read(folder)?)),
-        "crawl frontier" => Run::Drawn(Box::new(DrawnRun::cycles(folder)?)),
+        "optimize" | "crawl frontier" => match folder.run()? {
+            SearchPlan::Pull(plan) => Run::Search(Box::new(SearchRun::read(folder, &plan)?)),
+            SearchPlan::Cycle(plan) => Run::Drawn(Box::new(DrawnRun::cycles(folder, &plan.under)?)),
+        },
         "torque-map plot" => Run::Drawn(Box::new(DrawnRun::map(folder)?)),
         other => {
             return Err(ReportError::OtherCommand {

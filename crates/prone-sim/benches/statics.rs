@@ -40,7 +40,7 @@ fn torques(bencher: divan::Bencher, arm: ArmMode) {
     let robot = loaded.robot();
     let mapping = Mapping::new(robot, MappingVariant::Original, arm).expect("the NAO has both");
     let stance = Stance::unsqueezed(SupportRule::ElbowNotHand);
-    let source = StaticTorques::new(robot, mapping, &robot.study_stops(), stance)
+    let source = StaticTorques::new(robot.as_ref(), mapping, &robot.study_stops(), stance)
         .expect("the NAO mirrors itself");
     let postures = postures();
     let mut next = postures.iter().cycle();

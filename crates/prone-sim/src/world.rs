@@ -125,7 +125,7 @@ impl World {
     }
 
     /// The robot, for what outlives the world.
-    pub(crate) fn shared_robot(&self) -> Arc<Robot> {
+    pub fn shared_robot(&self) -> Arc<Robot> {
         Arc::clone(&self.robot)
     }
 

@@ -39,7 +39,7 @@ fn table_mapping(robot: &Robot) -> Mapping {
     Mapping::new(robot, MappingVariant::Original, ArmMode::Fixed).unwrap()
 }
 
-fn table_statics(robot: &Robot) -> StaticTorques<'_> {
+fn table_statics(robot: &Robot) -> StaticTorques<&Robot> {
     let stance = Stance::unsqueezed(SupportRule::AnyShape);
     StaticTorques::new(robot, table_mapping(robot), &robot.study_stops(), stance).unwrap()
 }
@@ -136,7 +136,7 @@ fn virtual_work_matches_force_balance() {
             supports,
             squeeze: 4.0,
         };
-        let source = StaticTorques::new(robot, mapping, &stops, stance).unwrap();
+        let source = StaticTorques::new(robot.as_ref(), mapping, &stops, stance).unwrap();
         let nodes = shuffled_nodes(7).into_iter();
         // The ankles' stops differ by 0.2°: where one is reached the pose has no mirror image.
         let commands = nodes
@@ -273,7 +273,7 @@ fn the_elbow_carries_a_flat_forearm() {
     let shoulder_error = |supports: SupportRule| {
         let stance = Stance::unsqueezed(supports);
         let stops = robot.study_stops();
-        let statics = StaticTorques::new(robot, mapping.clone(), &stops, stance).unwrap();
+        let statics = StaticTorques::new(robot.as_ref(), mapping.clone(), &stops, stance).unwrap();
         let errors = (0..=20).map(|step| {
             let at = gait.parameters(f64::from(step) / 20.0);
             let ours = statics.torques(at).unwrap().shoulder;

@@ -1,16 +1,16 @@
 //! Experiments with crawl gaits: what simulates and what searches, from a robot to a record.
 //!
-//! [`crawl`] and [`pulls`] turn what was simulated into records, [`optimize`] and [`cycle_search`]
-//! search, [`torque_map`] measures maps, [`export`] takes films.
+//! [`crawl`] and [`pulls`] turn what was simulated into records, [`search`]
+//! searches, [`torque_map`] measures maps, [`export`] takes films; [`watch`] is how whoever waits for
+//! them is told.
 
 pub mod crawl;
-pub mod cycle_search;
 pub mod export;
 pub mod frames;
 pub mod gait_sheet;
-pub mod optimize;
 pub mod pulls;
 pub mod robot_sheet;
 pub mod run;
+pub mod search;
 pub mod torque_map;
 pub mod watch;

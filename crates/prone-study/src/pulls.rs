@@ -6,14 +6,6 @@ use prone_record::pulls::{ChainRecord, ChainSample, PullRecord, PullRow};
 use prone_sim::World;
 use prone_sim::pull::Pull;
 
-/// Is told how a study goes, from many threads.
-pub trait Observer: Sync {
-    /// One more phase has been simulated.
-    fn phase_done(&self);
-    /// Whether to begin no further phase.
-    fn stop(&self) -> bool;
-}
-
 /// Samples of a planned chain: 1 % of the phase apart.
 const CHAIN_INTERVALS: usize = 100;
 

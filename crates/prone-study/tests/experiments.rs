@@ -8,7 +8,7 @@ use prone_record::experiment::{
     CrawlExperiment, Detail, Ending, Experiment, GaitText, PullExperiment, RobotText,
 };
 use prone_study::run::{Outcome, RunError, run};
-use prone_study::watch::{Unwatched, Watch};
+use prone_study::watch::{Progress, Unwatched, Watch};
 
 fn robot() -> RobotText {
     RobotText::from_files(&RobotFiles::shipped(&shipped::NAO))
@@ -68,6 +68,8 @@ impl Watch for After {
     fn stop(&self) -> bool {
         self.0.fetch_sub(1, Ordering::Relaxed) == 0
     }
+
+    fn progress(&self, _: &Progress<'_>) {}
 }
 
 #[test]

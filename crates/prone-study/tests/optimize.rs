@@ -4,6 +4,7 @@
 //! names, or in `../shared/reference` beside it. Where they are absent the tests that need them say
 //! so and pass; with `PRONE_REQUIRE_REFERENCE=1` they fail.
 
+use std::borrow::Cow;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
@@ -13,14 +14,15 @@ use prone::gait::{Gait, PhaseDuration};
 use prone::regime::Regime;
 use prone::torque_map::{self, TorqueMap};
 use prone_files::shipped;
+use prone_optim::Threads;
 use prone_record::search::{Search, SearchEnd, Solver};
 use prone_sim::pull::{self, Keep, Start};
 use prone_sim::{LoadedRobot, RobotFiles, World};
-use prone_study::optimize::dynamic::{DynamicPricing, DynamicSetup};
-use prone_study::optimize::pricer;
-use prone_study::optimize::pricing::{Pricing, Share};
-use prone_study::optimize::published_problem::{self, PublishedProblem};
-use prone_study::optimize::rules::{self, ChainRules, Clearance};
+use prone_study::search::candidates::Depth;
+use prone_study::search::chain_rules::{self, ChainRules, Clearance};
+use prone_study::search::published::{self, PublishedProblem};
+use prone_study::search::pull_cost::{self, PullAim, PullCosts, PullTerms, Share, Source};
+use prone_study::search::pull_trial;
 
 fn nao() -> LoadedRobot {
     LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap()
@@ -36,17 +38,20 @@ fn seconds(seconds: f64) -> PhaseDuration {
 
 /// The set-up of a search by simulation: commands of at most 200° per pull, and no more of the
 /// weight on the body than with the published optimum.
-fn setup(world: &World, objective: Objective, duration: PhaseDuration) -> DynamicSetup {
-    DynamicSetup {
-        norm: objective.norm(world.robot()).unwrap(),
+fn terms(world: &World, objective: Objective, duration: PhaseDuration) -> PullTerms {
+    PullTerms {
+        aim: PullAim::Graded(objective),
+        source: Source::Dynamics,
+        base: gait("nominal"),
         share: Share::Phase,
         rules: ChainRules {
             rate: 200_f64.to_radians(),
             clearance: Clearance::Free,
-            stops: Some(rules::widened_stops(world.robot(), &gait("nominal")).unwrap()),
+            stops: Some(chain_rules::widened_stops(world.robot(), &gait("nominal")).unwrap()),
         },
         duration,
-        body_share: pricer::body_share(world, &gait("optimal"), duration).unwrap(),
+        body_share: pull_cost::body_share(world, &gait("optimal"), duration).unwrap(),
+        body_share_of: None,
     }
 }
 
@@ -56,14 +61,13 @@ fn ratio(
     name: &str,
     objective: Objective,
     duration: f64,
-) -> (f64, Vec<&'static str>) {
+) -> (f64, Vec<Cow<'static, str>>) {
     let duration = seconds(duration);
-    let pricing =
-        DynamicPricing::new(world, &gait("nominal"), setup(world, objective, duration)).unwrap();
-    let nominal = pricing.quote(&gait("nominal")).torque;
-    let price = pricing.quote(&gait(name));
-    let broken = price.violations.iter().map(|(rule, _)| rule.name());
-    (price.torque / nominal, broken.collect())
+    let costs = PullCosts::new(world, terms(world, objective, duration)).unwrap();
+    let cost = |name| costs.cost(&gait(name), Depth::Everything);
+    let (nominal, cost) = (cost("nominal").value, cost(name));
+    let broken = cost.broken.into_iter().map(|broken| broken.rule);
+    (cost.value / nominal, broken.collect())
 }
 
 /// A prototype of the same set-up, written independently, has .839 at 3 s and .857 at 5 s
@@ -87,16 +91,20 @@ fn a_pull_from_a_settled_clone_is_the_same_pull() {
     let world = World::new(&loaded, Regime::TORQUE_STUDY).unwrap();
     let (nominal, duration) = (gait("nominal"), seconds(0.5));
     let alone = pull::run(&world, &nominal, duration, Start::FirstPose, Keep::Rows).unwrap();
-    let pricing =
-        DynamicPricing::new(&world, &nominal, setup(&world, Objective::TORQUE, duration)).unwrap();
+    let terms = terms(&world, Objective::TORQUE, duration);
+    let norm = Objective::TORQUE.norm(world.robot()).unwrap();
+    let costs = PullCosts::new(&world, terms).unwrap();
+    let torque = |pull| pull_trial::torque_part(world.robot(), pull, &norm).unwrap();
     for _ in 0..2 {
-        assert_eq!(pricing.trial(&nominal).unwrap().pull, alone);
+        assert_eq!(costs.pull(&nominal).unwrap(), alone);
+        let cost = costs.cost(&nominal, Depth::Everything);
+        assert_eq!(cost.value.to_bits(), torque(&alone).to_bits());
     }
     // One that begins elsewhere is settled there.
     let mut lower = nominal.clone();
     lower.hip = prone::gait::Curve::constant(0.3).unwrap();
     let alone = pull::run(&world, &lower, duration, Start::FirstPose, Keep::Rows).unwrap();
-    assert_eq!(pricing.trial(&lower).unwrap().pull, alone);
+    assert_eq!(costs.pull(&lower).unwrap(), alone);
 }
 
 #[test]
@@ -104,16 +112,16 @@ fn a_gait_that_breaks_the_rules_ranks_behind_one_that_does_not() {
     let loaded = nao();
     let world = World::new(&loaded, Regime::TORQUE_STUDY).unwrap();
     let duration = seconds(0.5);
-    let mut setup = setup(&world, Objective::TORQUE, duration);
-    setup.body_share = 0.999;
-    let pricing = DynamicPricing::new(&world, &gait("nominal"), setup).unwrap();
-    let kept = pricing.price(&gait("nominal"));
-    assert!(kept.violations.total() == 0.0);
+    let mut terms = terms(&world, Objective::TORQUE, duration);
+    terms.body_share = 0.999;
+    let costs = PullCosts::new(&world, terms).unwrap();
+    let kept = costs.cost(&gait("nominal"), Depth::UntilBroken);
+    assert!(kept.violation == 0.0 && kept.broken.is_empty());
     let mut fast = gait("nominal");
     fast.knee = prone::gait::Curve::through(vec![(0.0, 0.288), (0.5, 1.4), (1.0, 0.288)]).unwrap();
-    let fast = pricing.price(&fast);
-    assert!(fast.torque.is_nan() && fast.violations.total() > 1.0);
-    assert!(kept.order(&fast).is_lt());
+    let fast = costs.cost(&fast, Depth::UntilBroken);
+    assert!(fast.value.is_nan() && fast.violation > 1.0);
+    assert!(kept.score().beats(&fast.score()));
 }
 
 /// `AnklePitch` at the start, whose stops differ by a tenth of a degree left and right, and `ElbowRoll`
@@ -122,7 +130,7 @@ fn a_gait_that_breaks_the_rules_ranks_behind_one_that_does_not() {
 fn stops_reach_to_where_the_base_gait_is_clamped() {
     let loaded = nao();
     let world = World::new(&loaded, Regime::TORQUE_STUDY).unwrap();
-    let wide = rules::widened_stops(world.robot(), &gait("nominal")).unwrap();
+    let wide = chain_rules::widened_stops(world.robot(), &gait("nominal")).unwrap();
     let stops = world.robot().stops();
     let mut widened = Vec::new();
     for ((joint, stop), wide) in world.robot().joints.iter().zip(stops).zip(wide) {
@@ -215,17 +223,17 @@ fn reference_searches_of_the_published_problem_reach_the_best_known() {
             return;
         };
         let problem = PublishedProblem::new(loaded.robot(), &map, rules).unwrap();
-        let objective = published_problem::objective(loaded.robot(), &map, rules).unwrap();
+        let objective = published::objective(loaded.robot(), &map, rules).unwrap();
         let mut search = Search::new(Solver::DifferentialEvolution, 1, 3, 100_000);
-        let end = search.proceed(&problem, |_| ControlFlow::Continue(()));
+        let end = search.proceed(&Threads(&problem), |_| ControlFlow::Continue(()));
         assert_eq!(end, SearchEnd::Finished);
         for run in search.runs() {
             let best = run.best().unwrap();
-            let coefficients = published_problem::coefficients(&best.point).unwrap();
+            let coefficients = published::coefficients(&best.point).unwrap();
             let cost = objective.price(&coefficients).cost();
             println!("{file}, seed {}: {cost}", run.seed);
             assert!(cost <= known, "{file}, seed {}: {cost}", run.seed);
-            let outside = coefficients.outside(published_problem::BOUND);
+            let outside = coefficients.outside(published::BOUND);
             assert!(outside == 0.0 && coefficients.end_error() < 1e-9);
         }
     }
@@ -235,13 +243,10 @@ fn reference_searches_of_the_published_problem_reach_the_best_known() {
 #[test]
 fn published_coefficients_survive_the_way_through_a_gait() {
     let point = [0.1, -0.2, 0.3, -0.4, 0.5, -0.6];
-    let coefficients = published_problem::coefficients(&point).unwrap();
-    let gait = published_problem::gait("found", &coefficients).unwrap();
-    assert_eq!(
-        published_problem::coefficients_of(&gait),
-        Some(coefficients)
-    );
+    let coefficients = published::coefficients(&point).unwrap();
+    let gait = published::gait("found", &coefficients).unwrap();
+    assert_eq!(published::coefficients_of(&gait), Some(coefficients));
     let mut spline = gait;
     spline.knee = prone::gait::Curve::b_spline(3, vec![0.1; 5]).unwrap();
-    assert_eq!(published_problem::coefficients_of(&spline), None);
+    assert_eq!(published::coefficients_of(&spline), None);
 }

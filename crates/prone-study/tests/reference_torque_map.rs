@@ -11,25 +11,13 @@ use prone_files::shipped;
 use prone_record::program::Program;
 use prone_record::resumption::Opening;
 use prone_sim::{LoadedRobot, RobotFiles};
-use prone_study::torque_map::build::{self, Observer};
+use prone_study::torque_map::build;
 use prone_study::torque_map::compare::{MaskCounts, compare};
 use prone_study::torque_map::{Job, NodeGrid, Source};
+use prone_study::watch::Unwatched;
 
 /// Largest median |difference|, N·m: what an independent prototype reached, rounded up.
 const MEDIANS: [f64; 4] = [0.05, 0.06, 0.09, 0.06];
-
-/// Watches nothing and never stops.
-struct Nobody;
-
-impl Observer for Nobody {
-    fn taken_over(&self, _rows: usize) {}
-
-    fn row_done(&self) {}
-
-    fn stop(&self) -> bool {
-        false
-    }
-}
 
 /// A recorded table, or `None` with a word on stderr.
 fn recorded_table(name: &str) -> Option<RecordedMap> {
@@ -59,7 +47,7 @@ fn built(source: Source, step_deg: f64, theta4_max_deg: f64) -> RecordedMap {
     let job = Job::new(&robot, source, grid, &program).unwrap();
     let home = tempfile::tempdir().unwrap();
     let journal = home.path().join("journal");
-    let built = build::run(&job, &journal, Opening::Resume, &Nobody).unwrap();
+    let built = build::run(&job, &journal, Opening::Resume, &Unwatched).unwrap();
     parse_recorded(&built.text).unwrap()
 }
 

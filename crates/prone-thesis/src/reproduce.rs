@@ -25,7 +25,7 @@ use prone_report::report::{PAGE_FILE, Report, ReportError};
 use prone_study::crawl::pull::PullRecording;
 use prone_study::crawl::record::{RecordError, Recording};
 use prone_study::frames::FramesError;
-use prone_study::pulls::Observer;
+use prone_study::watch::Watch;
 use prone_study::{crawl, frames};
 
 /// A finished reproduction.
@@ -97,16 +97,16 @@ pub struct Study<'a> {
 pub fn run(
     studied: &Study<'_>,
     program: &Program,
-    observer: &dyn Observer,
+    watch: &dyn Watch,
 ) -> Result<Reproduction, ReproduceError> {
     let Study {
         robot, plan, table, ..
     } = *studied;
     let world = World::new(robot, Regime::TORQUE_STUDY)?;
     let (study, table_result) = rayon::join(
-        || torque_study::run(&world, plan, observer),
+        || torque_study::run(&world, plan, watch),
         || {
-            let result = table.map(|table| table_crawl::run(robot, table, observer));
+            let result = table.map(|table| table_crawl::run(robot, table, watch));
             result.transpose()
         },
     );

@@ -15,7 +15,7 @@ use crate::published::{TABLE_CRAWLS, TableCrawl};
 use crate::run_info::TableInfo;
 use prone_record::crawl_summary::CrawlSummary;
 use prone_study::crawl::{Conditions, GaitSource, summary};
-use prone_study::pulls::Observer;
+use prone_study::watch::{Progress, Watch};
 
 /// How the published figures came about.
 const PUBLISHED_BY: &str = "on the real robot, distance and time as printed";
@@ -80,12 +80,12 @@ pub enum TableError {
 pub(crate) fn run(
     robot: &LoadedRobot,
     study: &TableStudy,
-    observer: &dyn Observer,
+    watch: &dyn Watch,
 ) -> Result<TableResult, TableError> {
     let world = World::in_scene(robot, Regime::LOCOMOTION, &study.scene)?;
     let [short, long] = TABLE_CRAWLS;
-    let (first, shortest) = experiment(&world, study, 1, short, observer)?;
-    let (second, longest) = experiment(&world, study, 2, long, observer)?;
+    let (first, shortest) = experiment(&world, study, 1, short, watch)?;
+    let (second, longest) = experiment(&world, study, 2, long, watch)?;
     Ok(TableResult {
         engine_steps: shortest.engine_steps + longest.engine_steps,
         experiments: vec![first, second],
@@ -100,7 +100,7 @@ fn experiment(
     study: &TableStudy,
     number: usize,
     published: TableCrawl,
-    observer: &dyn Observer,
+    watch: &dyn Watch,
 ) -> Result<(TableExperiment, Crawl), TableError> {
     let plan = CrawlPlan {
         cycles: vec![study.gait.cycle.clone()],
@@ -110,10 +110,10 @@ fn experiment(
         imu_seed: None,
         detail: Detail::Rows,
     };
-    let stopped = || observer.stop();
+    let stopped = || watch.stop();
     let crawl = crawl::run_unless(&stopped, world, &plan, Straight::default())?;
     let ours = summary::of(world, &study.gait.cycle, TimeScale::ONE, &crawl, None)?;
-    observer.phase_done();
+    watch.progress(&Progress::Done(1));
     let experiment = TableExperiment {
         experiment: number,
         published,

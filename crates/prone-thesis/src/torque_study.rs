@@ -11,7 +11,8 @@ use prone::robot::Robot;
 use prone_sim::World;
 use prone_sim::pull::{self, Keep, Pull, PullError, Start};
 
-use prone_study::pulls::{Observer, chain_record, plan_chain, pull_record};
+use prone_study::pulls::{chain_record, plan_chain, pull_record};
+use prone_study::watch::{Progress, Watch};
 
 use crate::published;
 use prone_record::pulls::{ChainRecord, ClampRecord, CostRecord, PullRecord, RunRecord};
@@ -92,18 +93,18 @@ impl Job {
 ///
 /// # Errors
 /// [`StudyError`].
-pub fn run(world: &World, plan: &Plan, observer: &dyn Observer) -> Result<TorqueStudy, StudyError> {
+pub fn run(world: &World, plan: &Plan, watch: &dyn Watch) -> Result<TorqueStudy, StudyError> {
     let showcase = plan.showcase;
     let jobs = jobs(plan);
     let results: Vec<Result<Pull, StudyError>> = jobs
         .par_iter()
         .with_max_len(1)
         .map(|job| {
-            if observer.stop() {
+            if watch.stop() {
                 return Err(StudyError::Stopped);
             }
             let pull = pull::run(world, &job.gait, job.duration, Start::Recorded, job.keep())?;
-            observer.phase_done();
+            watch.progress(&Progress::Done(1));
             Ok(pull)
         })
         .collect();

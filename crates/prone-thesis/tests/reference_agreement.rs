@@ -7,27 +7,16 @@
 use prone::regime::Regime;
 use prone_files::shipped;
 use prone_sim::{LoadedRobot, RobotFiles, World};
-use prone_study::pulls::Observer;
+use prone_study::watch::Unwatched;
 use prone_thesis::torque_study::{self, Plan, TorqueStudy};
 use prone_thesis::{agreement, published, summary};
-
-/// Watches nothing and never stops.
-struct Nobody;
-
-impl Observer for Nobody {
-    fn phase_done(&self) {}
-
-    fn stop(&self) -> bool {
-        false
-    }
-}
 
 fn study(durations_s: &[f64]) -> TorqueStudy {
     let robot = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
     let world = World::new(&robot, Regime::TORQUE_STUDY).unwrap();
     let gaits = ["nominal", "optimal"].map(|name| shipped::gait(name).unwrap().unwrap());
     let plan = Plan::new(gaits.to_vec(), durations_s).unwrap();
-    torque_study::run(&world, &plan, &Nobody).unwrap()
+    torque_study::run(&world, &plan, &Unwatched).unwrap()
 }
 
 /// Largest RMS, N·m, and smallest correlation, where one is asked for.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
-use prone_study::optimize::form::GaitForm;
+use prone_study::search::pull_form::GaitForm;
 
 use super::named::GaitArg;
 use super::pricing::PricingArgs;

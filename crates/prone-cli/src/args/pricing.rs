@@ -81,6 +81,20 @@ pub(crate) enum ObjectiveName {
     Speed,
 }
 
+impl ObjectiveName {
+    /// Name in files and records.
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Published => "published",
+            Self::Torque => "torque",
+            Self::Peak => "peak",
+            Self::Heat => "heat",
+            Self::Advance => "advance",
+            Self::Speed => "speed",
+        }
+    }
+}
+
 /// What a price is divided by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum PerName {

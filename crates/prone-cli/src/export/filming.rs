@@ -13,7 +13,7 @@ use prone_study::export::webp_film::WebpReel;
 use super::ffmpeg::Ffmpeg;
 use super::{cannot_write, origin};
 use crate::args::{ExportArgs, Format, ViewName};
-use crate::progress::FilmProgress;
+use crate::progress::Progress;
 use crate::{Failure, interrupt};
 
 /// Unless said otherwise.
@@ -62,7 +62,7 @@ where
     R: prone_study::export::film::Reel,
     R::Error: Into<anyhow::Error>,
 {
-    let progress = FilmProgress::new(film.len())?;
+    let progress = Progress::filming(film.len())?;
     let done = film.shoot(reel, &progress);
     progress.finish();
     done.map_err(|interrupted| match interrupted {

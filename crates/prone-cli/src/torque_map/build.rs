@@ -12,7 +12,7 @@ use prone_study::torque_map::build::{self, BuildError, Built, Summary};
 use prone_study::torque_map::{Job, NodeGrid, Source};
 
 use crate::args::{BuildArgs, SourceArg};
-use crate::progress::RowProgress;
+use crate::progress::Progress;
 use crate::{Failure, interrupt};
 
 pub(super) fn run(args: &BuildArgs) -> Result<(), Failure> {
@@ -36,7 +36,7 @@ pub(super) fn run(args: &BuildArgs) -> Result<(), Failure> {
     };
 
     let journal = Work::TorqueMap.beside(&args.out);
-    let progress = RowProgress::new(job.rows(), journal.clone())?;
+    let progress = Progress::measuring(job.rows(), journal.clone())?;
     let started = Instant::now();
     let built = pool.install(|| build::run(&job, &args.out, opening, &progress));
     progress.finish();

@@ -1,5 +1,5 @@
 use super::*;
-use crate::{Run, Score, Termination};
+use crate::{Failure, Problem, Run, Score, Termination, Threads};
 
 struct Rosenbrock(Vec<Interval>);
 
@@ -8,10 +8,10 @@ impl Problem for Rosenbrock {
         &self.0
     }
 
-    fn evaluate(&self, point: &[f64]) -> Score {
+    fn evaluate(&self, point: &[f64]) -> Result<Score, Failure> {
         let valley =
             |pair: &[f64]| 100.0 * (pair[1] - pair[0] * pair[0]).powi(2) + (1.0 - pair[0]).powi(2);
-        Score::feasible(point.windows(2).map(valley).sum())
+        Ok(Score::feasible(point.windows(2).map(valley).sum()))
     }
 }
 
@@ -19,7 +19,7 @@ impl Problem for Rosenbrock {
 fn reference_follows_the_bent_valley() {
     let problem = Rosenbrock(vec![Interval::new(-2.0, 2.0).unwrap(); 4]);
     let mut run = Run::new(CovarianceMatrix::new(CovarianceMatrixOptions::default(), 3));
-    run.proceed(&problem, &Termination::after(30_000), &mut ());
+    run.proceed(&Threads(&problem), &Termination::after(30_000), &mut ());
     assert!(
         run.best().unwrap().score.value() < 1e-10,
         "{:?}",
@@ -40,7 +40,7 @@ fn reference_asks_for_what_the_crate_asks_for() {
     let visited = RefCell::new(Vec::new());
     let objective = |shares: &DVector<f64>| {
         visited.borrow_mut().push(shares.as_slice().to_vec());
-        problem.evaluate(&place(shares.as_slice())).value()
+        problem.evaluate(&place(shares.as_slice())).unwrap().value()
     };
     let mut alone = CMAESOptions::new(search.mean.clone(), search.step)
         .population_size(search.population)
@@ -55,7 +55,9 @@ fn reference_asks_for_what_the_crate_asks_for() {
     let mut points = Vec::new();
     while let Some(generation) = asked.ask().unwrap() {
         for shares in &generation {
-            asked.told.push(problem.evaluate(&place(shares)).value());
+            asked
+                .told
+                .push(problem.evaluate(&place(shares)).unwrap().value());
         }
         points.extend(generation);
     }
@@ -69,7 +71,7 @@ fn a_generation_is_one_population() {
     let problem = Rosenbrock(vec![Interval::new(-2.0, 2.0).unwrap(); 4]);
     let mut run = Run::new(CovarianceMatrix::new(CovarianceMatrixOptions::default(), 3));
     let mut history = crate::History::default();
-    run.proceed(&problem, &Termination::after(250), &mut history);
+    run.proceed(&Threads(&problem), &Termination::after(250), &mut history);
     let evaluations: Vec<_> = history.0.iter().map(|g| g.evaluations).collect();
     assert_eq!(evaluations, (1..=20).map(|k| 12 * k).collect::<Vec<_>>());
 }
@@ -77,7 +79,11 @@ fn a_generation_is_one_population() {
 #[test]
 fn nothing_to_search_is_no_endless_search() {
     let mut run = Run::new(CovarianceMatrix::new(CovarianceMatrixOptions::default(), 3));
-    let reason = run.proceed(&Rosenbrock(Vec::new()), &Termination::after(100), &mut ());
+    let reason = run.proceed(
+        &Threads(Rosenbrock(Vec::new())),
+        &Termination::after(100),
+        &mut (),
+    );
     assert_eq!(
         (reason, run.evaluations()),
         (crate::StopReason::Evaluations, 0)

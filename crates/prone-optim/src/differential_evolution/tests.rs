@@ -1,5 +1,5 @@
 use super::*;
-use crate::{Run, Termination};
+use crate::{Failure, Problem, Run, Termination, Threads};
 
 /// Rastrigin's function in five variables: 11⁵ local minima, the least at 0.3.
 struct Rastrigin(Vec<Interval>);
@@ -9,9 +9,9 @@ impl Problem for Rastrigin {
         &self.0
     }
 
-    fn evaluate(&self, point: &[f64]) -> Score {
+    fn evaluate(&self, point: &[f64]) -> Result<Score, Failure> {
         let ripple = |x: f64| x * x + 10.0 * (1.0 - (std::f64::consts::TAU * x).cos());
-        Score::feasible(point.iter().map(|x| ripple(x - 0.3)).sum())
+        Ok(Score::feasible(point.iter().map(|x| ripple(x - 0.3)).sum()))
     }
 }
 
@@ -23,7 +23,7 @@ fn reference_finds_the_least_of_many_minima() {
             DifferentialEvolutionOptions::default(),
             seed,
         ));
-        run.proceed(&problem, &Termination::after(30_000), &mut ());
+        run.proceed(&Threads(&problem), &Termination::after(30_000), &mut ());
         let best = run.best().unwrap();
         assert!(best.score.value() < 1e-9, "seed {seed}: {best:?}");
     }
@@ -39,7 +39,7 @@ fn identity_surrender_buys_more_beginnings() {
             ..DifferentialEvolutionOptions::default()
         };
         let mut run = Run::new(DifferentialEvolution::new(options, 8));
-        run.proceed(&problem, &Termination::after(50_000), &mut ());
+        run.proceed(&Threads(&problem), &Termination::after(50_000), &mut ());
         run.solver().restarts()
     };
     let (never, usual, at_once) = (restarts(0.0), restarts(2.0), restarts(1e6));
@@ -57,9 +57,9 @@ impl Problem for Needle {
         &self.0
     }
 
-    fn evaluate(&self, point: &[f64]) -> Score {
+    fn evaluate(&self, point: &[f64]) -> Result<Score, Failure> {
         let distance = point.iter().map(|x| (x - 1.0).powi(2)).sum::<f64>().sqrt();
-        Score::new((distance - 0.05).max(0.0), -point[0])
+        Ok(Score::new((distance - 0.05).max(0.0), -point[0]))
     }
 }
 
@@ -70,7 +70,7 @@ fn limit_a_narrow_feasible_set_is_found_and_used() {
         DifferentialEvolutionOptions::default(),
         9,
     ));
-    run.proceed(&problem, &Termination::after(20_000), &mut ());
+    run.proceed(&Threads(&problem), &Termination::after(20_000), &mut ());
     let best = run.best().unwrap();
     assert!(
         best.score.violation() == 0.0 && best.score.value() < -1.0499,
@@ -85,8 +85,8 @@ fn identity_a_flat_problem_begins_anew_and_ends() {
         fn bounds(&self) -> &[Interval] {
             &self.0
         }
-        fn evaluate(&self, _: &[f64]) -> Score {
-            Score::feasible(1.0)
+        fn evaluate(&self, _: &[f64]) -> Result<Score, Failure> {
+            Ok(Score::feasible(1.0))
         }
     }
     let problem = Flat(vec![Interval::new(0.0, 1.0).unwrap()]);
@@ -94,6 +94,6 @@ fn identity_a_flat_problem_begins_anew_and_ends() {
         DifferentialEvolutionOptions::default(),
         0,
     ));
-    run.proceed(&problem, &Termination::after(10_000), &mut ());
+    run.proceed(&Threads(&problem), &Termination::after(10_000), &mut ());
     assert!(run.solver().restarts() > 1);
 }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::{Run, Score, Termination};
+use crate::{Failure, Problem, Run, Score, Termination, Threads};
 
 struct Sphere(Vec<Interval>);
 
@@ -8,8 +8,8 @@ impl Problem for Sphere {
         &self.0
     }
 
-    fn evaluate(&self, point: &[f64]) -> Score {
-        Score::feasible(point.iter().map(|x| x * x).sum())
+    fn evaluate(&self, point: &[f64]) -> Result<Score, Failure> {
+        Ok(Score::feasible(point.iter().map(|x| x * x).sum()))
     }
 }
 
@@ -17,7 +17,7 @@ impl Problem for Sphere {
 fn limit_a_bowl_is_descended() {
     let problem = Sphere(vec![Interval::new(-2.0, 2.0).unwrap(); 6]);
     let mut run = Run::new(Genetic::new(GeneticOptions::default(), 4));
-    run.proceed(&problem, &Termination::after(16_000), &mut ());
+    run.proceed(&Threads(&problem), &Termination::after(16_000), &mut ());
     assert!(run.best().unwrap().score.value() < 0.05, "{:?}", run.best());
 }
 

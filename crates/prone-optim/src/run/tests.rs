@@ -3,9 +3,10 @@ use std::time::Duration;
 use proptest::prelude::*;
 
 use crate::{
-    CovarianceMatrix, CovarianceMatrixOptions, DifferentialEvolution, DifferentialEvolutionOptions,
-    Genetic, GeneticOptions, History, Interval, Observer, Problem, Run, Score, Solver, StopReason,
-    Termination, TimeBudget,
+    Answer, CovarianceMatrix, CovarianceMatrixOptions, DifferentialEvolution,
+    DifferentialEvolutionOptions, Failure, Genetic, GeneticOptions, History, Interval, Observer,
+    Problem, Query, QueryId, Run, Score, Scorer, Solver, StopReason, Termination, Threads,
+    TimeBudget,
 };
 
 /// The disc of radius 1 about the origin is forbidden; the value is the distance from (½, ½, …),
@@ -23,7 +24,7 @@ impl Problem for Ripples {
         &self.0
     }
 
-    fn evaluate(&self, point: &[f64]) -> Score {
+    fn evaluate(&self, point: &[f64]) -> Result<Score, Failure> {
         assert!(
             point.iter().all(|x| (-3.0..=3.0).contains(x)),
             "{point:?} is out of bounds"
@@ -33,7 +34,7 @@ impl Problem for Ripples {
             .iter()
             .map(|x| (x - 0.5).powi(2) - 0.1 * (20.0 * x).cos())
             .sum();
-        Score::new((1.0 - radius).max(0.0), value)
+        Ok(Score::new((1.0 - radius).max(0.0), value))
     }
 }
 
@@ -48,7 +49,11 @@ where
 {
     let problem = Ripples::new();
     let (mut whole, mut whole_history) = (Run::new(solver.clone()), History::default());
-    whole.proceed(&problem, &Termination::after(6000), &mut whole_history);
+    whole.proceed(
+        &Threads(&problem),
+        &Termination::after(6000),
+        &mut whole_history,
+    );
 
     let (mut run, mut history) = (Run::new(solver), History::default());
     for &generations in pieces {
@@ -56,10 +61,10 @@ where
             generations: Some(generations),
             ..Termination::after(6000)
         };
-        run.proceed(&problem, &piece, &mut history);
+        run.proceed(&Threads(&problem), &piece, &mut history);
         run = serde_json::from_str(&serde_json::to_string(&run).unwrap()).unwrap();
     }
-    run.proceed(&problem, &Termination::after(6000), &mut history);
+    run.proceed(&Threads(&problem), &Termination::after(6000), &mut history);
     assert_eq!(result(&run, &history), result(&whole, &whole_history));
 }
 
@@ -87,13 +92,89 @@ fn identity_any_number_of_threads_gives_the_same_bytes() {
                 11,
             ));
             let mut history = History::default();
-            run.proceed(&Ripples::new(), &Termination::after(5000), &mut history);
+            run.proceed(
+                &Threads(Ripples::new()),
+                &Termination::after(5000),
+                &mut history,
+            );
             result(&run, &history)
         })
     };
     let one = with(1);
     assert_eq!(one, with(2));
     assert_eq!(one, with(5));
+}
+
+/// Answers last point first, some of them twice, and for a point that nobody asked for.
+struct Backwards(Threads<Ripples>);
+
+impl Scorer for Backwards {
+    fn bounds(&self) -> &[Interval] {
+        self.0.bounds()
+    }
+
+    fn score(&self, batch: &[Query]) -> Vec<Answer> {
+        let mut answers = self.0.score(batch);
+        answers.reverse();
+        let again = (answers[0].0, Ok(Score::feasible(-1e9)));
+        answers.push(again);
+        answers.push((QueryId(u64::MAX), Ok(Score::feasible(-1e9))));
+        answers
+    }
+}
+
+#[test]
+fn identity_any_order_of_answers_gives_the_same_bytes() {
+    fn compared<S: Solver + serde::Serialize>(solver: &S) {
+        let with = |scorer: &dyn Scorer| {
+            let mut run = Run::new(solver.clone());
+            let mut history = History::default();
+            run.proceed(scorer, &Termination::after(5000), &mut history);
+            result(&run, &history)
+        };
+        let straight = with(&Threads(Ripples::new()));
+        assert_eq!(straight, with(&Backwards(Threads(Ripples::new()))));
+    }
+    compared(&DifferentialEvolution::new(
+        DifferentialEvolutionOptions::default(),
+        3,
+    ));
+    compared(&CovarianceMatrix::new(
+        CovarianceMatrixOptions::default(),
+        3,
+    ));
+    compared(&Genetic::new(GeneticOptions::default(), 3));
+}
+
+/// Has no score where the first number is negative.
+struct HalfUnknown(Ripples);
+
+impl Problem for HalfUnknown {
+    fn bounds(&self) -> &[Interval] {
+        self.0.bounds()
+    }
+
+    fn evaluate(&self, point: &[f64]) -> Result<Score, Failure> {
+        if point[0] < 0.0 {
+            let reason = "it is negative".to_owned();
+            return Err(Failure { reason });
+        }
+        self.0.evaluate(point)
+    }
+}
+
+#[test]
+fn a_point_without_a_score_is_the_worst_and_the_run_goes_on() {
+    let mut run = Run::new(DifferentialEvolution::new(
+        DifferentialEvolutionOptions::default(),
+        1,
+    ));
+    let mut history = History::default();
+    let problem = HalfUnknown(Ripples::new());
+    run.proceed(&Threads(&problem), &Termination::after(6000), &mut history);
+    let best = run.best().unwrap();
+    assert!(best.point[0] >= 0.0 && best.score.violation() == 0.0);
+    assert!(history.0[0].mean_violation > 1e300);
 }
 
 #[test]
@@ -106,16 +187,16 @@ fn limit_the_budget_is_never_passed() {
             1,
         ));
         assert_eq!(
-            run.proceed(&Ripples::new(), &termination, &mut ()),
+            run.proceed(&Threads(Ripples::new()), &termination, &mut ()),
             StopReason::Evaluations
         );
         passes(run.evaluations(), budget);
         assert_eq!(run.best().is_some(), budget >= 30);
         let mut run = Run::new(CovarianceMatrix::new(CovarianceMatrixOptions::default(), 1));
-        run.proceed(&Ripples::new(), &termination, &mut ());
+        run.proceed(&Threads(Ripples::new()), &termination, &mut ());
         passes(run.evaluations(), budget);
         let mut run = Run::new(Genetic::new(GeneticOptions::default(), 1));
-        run.proceed(&Ripples::new(), &termination, &mut ());
+        run.proceed(&Threads(Ripples::new()), &termination, &mut ());
         passes(run.evaluations(), budget);
     }
 }
@@ -133,7 +214,10 @@ fn limit_targets_generations_and_observers_end_a_run() {
         target: Some(Score::new(1.0, 1e9)),
         ..Termination::after(1000)
     };
-    assert_eq!(new().proceed(&problem, &any, &mut ()), StopReason::Target);
+    assert_eq!(
+        new().proceed(&Threads(&problem), &any, &mut ()),
+        StopReason::Target
+    );
 
     let mut run = new();
     let three = Termination {
@@ -141,7 +225,7 @@ fn limit_targets_generations_and_observers_end_a_run() {
         ..Termination::after(1000)
     };
     assert_eq!(
-        run.proceed(&problem, &three, &mut ()),
+        run.proceed(&Threads(&problem), &three, &mut ()),
         StopReason::Generations
     );
     assert_eq!(run.generation(), 3);
@@ -158,7 +242,7 @@ fn limit_targets_generations_and_observers_end_a_run() {
     );
     let mut run = new();
     assert_eq!(
-        run.proceed(&problem, &Termination::after(1000), &mut observer),
+        run.proceed(&Threads(&problem), &Termination::after(1000), &mut observer),
         StopReason::Observer
     );
     assert_eq!(observer.0.0.len(), 4);
@@ -169,7 +253,11 @@ fn limit_targets_generations_and_observers_end_a_run() {
 fn identity_history_tells_the_run() {
     let mut run = Run::new(Genetic::new(GeneticOptions::default(), 2));
     let mut history = History::default();
-    run.proceed(&Ripples::new(), &Termination::after(4000), &mut history);
+    run.proceed(
+        &Threads(Ripples::new()),
+        &Termination::after(4000),
+        &mut history,
+    );
     let records = &history.0;
     assert_eq!(records[0].evaluations, 200);
     assert_eq!(records[1].evaluations, 390);

@@ -1,55 +1,33 @@
 //! Reading result folders whose drawings are shown as they are: searches of whole cycles, frontiers,
 //! torque maps.
 
-use serde::Deserialize;
-
 use super::ReportError;
 use super::cut_table::Cut;
 use super::folder::Folder;
 use crate::figures::{Figure, GenerationRecord, Scores, SearchRecord, generations};
 use prone_record::figure_entry::FigureEntry;
-use prone_record::frontier::Confirmed;
-use prone_record::frontier::CycleObjective;
+use prone_record::frontier::{CycleObjective, Found, Frontier};
+use prone_record::search_plan::UnderPlan;
 
 /// What such a command left behind.
 pub(super) struct DrawnRun {
     pub(super) folder: Folder,
     pub(super) recorded: Vec<FigureEntry>,
     /// Of a search of whole cycles.
-    pub(super) cycles: Option<CycleResult>,
+    pub(super) cycles: Option<Frontier>,
     /// Generation by generation, the search of cycles that found the best.
     pub(super) history: Option<SearchRecord>,
     pub(super) cuts: Vec<Cut>,
 }
 
-/// What is needed of the `result.json` of a search of cycles.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-pub(super) struct CycleResult {
-    pub(super) objective: String,
-    pub(super) margin_mm: f64,
-    pub(super) found: Vec<FoundCycle>,
-}
-
-/// What one search found.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-pub(super) struct FoundCycle {
-    pub(super) ceiling_mm: Option<f64>,
-    pub(super) seed: u64,
-    pub(super) evaluations: u64,
-    pub(super) gait: String,
-    pub(super) value: Option<f64>,
-    pub(super) violation: f64,
-    pub(super) confirmed: Confirmed,
-}
-
 impl DrawnRun {
-    /// A search of whole cycles.
-    pub(super) fn cycles(folder: Folder) -> Result<Self, ReportError> {
-        let result: CycleResult = folder.json("result.json")?;
+    /// A search of whole cycles, whose heats may be shares of another cycle's.
+    pub(super) fn cycles(folder: Folder, under: &UnderPlan) -> Result<Self, ReportError> {
+        let result: Frontier = folder.json("result.json")?;
         let mut cuts = Vec::new();
         Ok(Self {
             recorded: folder.figures()?,
-            history: history(&folder, &result, &mut cuts)?,
+            history: history(&folder, &result, under, &mut cuts)?,
             cycles: Some(result),
             cuts,
             folder,
@@ -80,22 +58,22 @@ impl DrawnRun {
 
 /// What the values of a search are, in which unit, and that unit in theirs; searches minimise, so that
 /// what is to be large is negative.
-fn quantity(folder: &Folder, objective: &str) -> Option<(&'static str, &'static str, f64)> {
-    Some(match CycleObjective::named(objective)? {
-        CycleObjective::Heat if folder.said("/worst_over").is_some() => {
-            ("heat over another cycle's", "–", 1.0)
-        }
+fn quantity(objective: CycleObjective, under: &UnderPlan) -> (&'static str, &'static str, f64) {
+    let over = matches!(under, UnderPlan::One(one) if one.worst_over.is_some());
+    match objective {
+        CycleObjective::Heat if over => ("heat over another cycle's", "–", 1.0),
         CycleObjective::Heat => ("heat per metre", "s/m", 1.0),
         CycleObjective::Advance => ("advance per cycle", "mm", -1e3),
         CycleObjective::Speed => ("speed", "mm/s", -1e3),
         CycleObjective::Peak => ("torque demanded of a shoulder", "N·m", 1.0),
-    })
+    }
 }
 
 /// The search that found the best cycle.
 fn history(
     folder: &Folder,
-    result: &CycleResult,
+    result: &Frontier,
+    under: &UnderPlan,
     cuts: &mut Vec<Cut>,
 ) -> Result<Option<SearchRecord>, ReportError> {
     let mut table = folder.table("history.csv")?;
@@ -116,15 +94,15 @@ fn history(
         Some((line.optional(ceiling).ok()?, line.whole(seed)?, row))
     });
     cuts.extend(table.cut());
-    let order = |found: &FoundCycle| (found.violation, found.value.unwrap_or(f64::INFINITY));
+    let order = |found: &Found| (found.violation, found.value.unwrap_or(f64::INFINITY));
     let best = result.found.iter().min_by(|a, b| {
         let (a, b) = (order(a), order(b));
         a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
     });
-    let Some((best, (objective, unit, factor))) = best.zip(quantity(folder, &result.objective))
-    else {
+    let Some(best) = best else {
         return Ok(None);
     };
+    let (objective, unit, factor) = quantity(result.objective, under);
     // The table has a tenth of a millimetre.
     let same = |height: Option<f64>| match height.zip(best.ceiling_mm) {
         Some((a, b)) => (a - b).abs() < 0.06,

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use maud::{Markup, html};
+use prone_record::frontier::{ConfirmedSetting, Found, Frontier};
 use prone_record::origin::Origin;
 use prone_record::record_info::RecordInfo;
 
 use super::Run;
-use super::drawn_run::{CycleResult, FoundCycle};
 use super::folder::Given;
 use super::search_run::SearchRun;
 
@@ -80,15 +80,15 @@ fn pulls(search: &SearchRun) -> Markup {
 }
 
 /// A search of cycles: what each found, in the setting that was asked for.
-fn found(name: &str, result: &CycleResult) -> Markup {
-    let first = |found: &FoundCycle, of: fn(&_) -> Option<f64>, decimals: usize| {
+fn found(name: &str, result: &Frontier) -> Markup {
+    let first = |found: &Found, of: fn(&_) -> Option<f64>, decimals: usize| {
         let row = found.confirmed.settings.first();
         optional(row.and_then(of), |value| format!("{value:.decimals$}"))
     };
     html! {
         div.scroll { table {
             caption {
-                strong { "Cycles, " (name) "." } " Searched for " (result.objective) ", "
+                strong { "Cycles, " (name) "." } " Searched for " (result.objective.name()) ", "
                 (result.margin_mm) " mm kept free of the ceiling; ours, simulated in the regime \
                  locomotion. Holds: keeps 80 % of its advance without touching in all other settings \
                  of the confirmation."
@@ -102,7 +102,7 @@ fn found(name: &str, result: &CycleResult) -> Markup {
                 td { (optional(found.ceiling_mm, |height| format!("{height:.0} mm"))) }
                 td { (found.seed) }
                 td { (found.evaluations) }
-                td { (first(found, |row: &prone_record::frontier::ConfirmedSetting| row.mm_per_cycle, 1)) " mm" }
+                td { (first(found, |row: &ConfirmedSetting| row.mm_per_cycle, 1)) " mm" }
                 td { (first(found, |row| row.mm_per_s, 1)) " mm/s" }
                 td { (first(found, |row| row.top_mm, 0)) " mm" }
                 td { (first(found, |row| row.heat_per_metre_s, 0)) " s/m" }

@@ -10,6 +10,7 @@ use crate::figures::{
 };
 use prone_record::curves_info::CurvesInfo;
 use prone_record::pulls::ChainRecord;
+use prone_record::search_plan::{PullAimPlan, PullPlan};
 
 /// What a search of pulls left behind.
 pub(super) struct SearchRun {
@@ -40,7 +41,7 @@ pub(super) struct SearchResult {
     pub(super) verdicts: Vec<VerdictRow>,
 }
 
-/// Another gait's price.
+/// Another gait's cost.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub(super) struct ComparedGait {
     pub(super) gait: String,
@@ -59,27 +60,18 @@ pub(super) struct VerdictRow {
 }
 
 impl SearchRun {
-    pub(super) fn read(folder: Folder) -> Result<Self, ReportError> {
+    pub(super) fn read(folder: Folder, plan: &PullPlan) -> Result<Self, ReportError> {
         let result: SearchResult = folder.json("result.json")?;
         let mut cuts = Vec::new();
-        let aim = folder.said("/pricing/aim/objective");
-        let aim = aim.unwrap_or_else(|| "not said".to_owned());
-        let source = folder
-            .said("/pricing/source/file")
-            .or_else(|| folder.said("/pricing/source"));
-        let scores = if aim == "published" {
-            Scores::Published
-        } else {
-            Scores::Graded
+        let aim = plan.pricing.aim.name();
+        let (scores, objective) = match &plan.pricing.aim {
+            // The published cost is one of torque.
+            PullAimPlan::Published { .. } => (Scores::Published, "torque"),
+            graded => (Scores::Graded, graded.name()),
         };
         let mut history = SearchRecord {
             seed: result.seed,
-            // The published cost is one of torque.
-            objective: if scores == Scores::Published {
-                "torque".to_owned()
-            } else {
-                aim.clone()
-            },
+            objective: objective.to_owned(),
             unit: result.unit.clone(),
             scores,
             generations: Vec::new(),
@@ -88,8 +80,8 @@ impl SearchRun {
         Ok(Self {
             confirmed: confirmed(&folder, &mut cuts)?,
             chains: chains::read(&folder, None, &mut cuts)?,
-            source: source.unwrap_or_else(|| "not said".to_owned()),
-            aim,
+            source: plan.pricing.source.name().to_owned(),
+            aim: aim.to_owned(),
             result,
             history,
             cuts,

@@ -15,7 +15,7 @@ use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, End, LimbsError, chec
 use prone_sim::{LoadError, LoadedRobot, World, WorldError};
 
 use super::run::{Conditions, GaitSource, PastObstacles};
-use crate::cycle_search::settings::offsets;
+use crate::search::settings::offsets;
 
 /// A crawl that can be simulated.
 pub struct CrawlSetup {

@@ -12,6 +12,8 @@ use prone_sim::{Snapshot, World};
 
 use prone_record::recorded::Recorded;
 
+use crate::watch::{Progress, Watch};
+
 // Lengths are those at scale 1 of `camera::scale`.
 
 /// Room ahead of and behind the root over the whole way, m: a robot stretched out, and a little.
@@ -121,14 +123,6 @@ pub trait Reel {
     fn take(&mut self, frame: Self::Frame) -> Result<(), Self::Error>;
 }
 
-/// Whoever waits for a film.
-pub trait Observer {
-    /// So many pictures more are done.
-    fn pictures_done(&self, count: usize);
-    /// Whether to stop.
-    fn stop(&self) -> bool;
-}
-
 impl<'a> Film<'a> {
     /// Prepares a shot.
     ///
@@ -199,14 +193,14 @@ impl<'a> Film<'a> {
     pub fn shoot<R: Reel>(
         &self,
         reel: &mut R,
-        observer: &dyn Observer,
+        watch: &dyn Watch,
     ) -> Result<(), Interrupted<R::Error>> {
         /// Pictures of a batch for each thread: enough that none waits long for the others.
         const PER_THREAD: usize = 2;
         let batch = PER_THREAD * rayon::current_num_threads();
         let mut before: Option<Picture> = None;
         for first in (0..self.len()).step_by(batch) {
-            if observer.stop() {
+            if watch.stop() {
                 return Err(Interrupted::Stopped);
             }
             let numbers = first..self.len().min(first + batch);
@@ -226,7 +220,7 @@ impl<'a> Film<'a> {
                     .and_then(|frame| reel.take(frame))
                     .map_err(Interrupted::Failed)?;
             }
-            observer.pictures_done(pictures.len());
+            watch.progress(&Progress::Done(pictures.len()));
             before = pictures.into_iter().next_back();
         }
         Ok(())

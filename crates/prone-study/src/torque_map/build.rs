@@ -6,6 +6,7 @@ use std::sync::{Mutex, PoisonError};
 use rayon::prelude::*;
 use serde::Serialize;
 
+use prone::robot::Robot;
 use prone::statics::{Stance, StaticTorques, SupportRule, SymmetryError};
 use prone::torque_map::{self, GridError, Mask, RecordedMap, Row, TorqueMap};
 use prone_record::resumption::{Journal, Opening, ResumptionError, Work};
@@ -15,16 +16,7 @@ use prone_sim::{World, WorldError};
 use super::gauge::{self, Entry, Gauge, SettledGauge, StaticGauge};
 use super::job::REGIME;
 use super::{Job, KeptRow, Source};
-
-/// Is told how a build goes, from many threads.
-pub trait Observer: Sync {
-    /// An earlier build left that many rows.
-    fn taken_over(&self, rows: usize);
-    /// One more row has been measured.
-    fn row_done(&self);
-    /// Whether to begin no further row.
-    fn stop(&self) -> bool;
-}
+use crate::watch::{Progress, Watch};
 
 /// A map, ready to be put in place.
 #[derive(Debug)]
@@ -86,9 +78,9 @@ pub fn run(
     job: &Job<'_>,
     out: &Path,
     opening: Opening,
-    observer: &dyn Observer,
+    watch: &dyn Watch,
 ) -> Result<Built, BuildError> {
-    let robot = job.robot.robot();
+    let robot: &Robot = job.robot.robot();
     let mapping = job.mapping.clone();
     // The journal is opened last: what cannot be measured leaves none.
     let open = || open(job, out, opening);
@@ -96,7 +88,7 @@ pub fn run(
         Source::Statics => {
             let stance = Stance::unsqueezed(SupportRule::AnyShape);
             let source = StaticTorques::new(robot, mapping, &robot.study_stops(), stance)?;
-            measure(job, &StaticGauge { robot, source }, open()?, observer)?
+            measure(job, &StaticGauge { robot, source }, open()?, watch)?
         }
         Source::Simulation => {
             let world = World::new(job.robot, REGIME)?;
@@ -105,7 +97,7 @@ pub fn run(
                 world: &world,
                 source,
             };
-            measure(job, &gauge, open()?, observer)?
+            measure(job, &gauge, open()?, watch)?
         }
     };
     let recorded = recorded(job, &entries)?;
@@ -147,24 +139,24 @@ fn measure(
     job: &Job<'_>,
     gauge: &impl Gauge,
     (journal, mut entries): (Journal<KeptRow>, Vec<Option<Entry>>),
-    observer: &dyn Observer,
+    watch: &dyn Watch,
 ) -> Result<(Vec<Entry>, Journal<KeptRow>), BuildError> {
     let rows = job.rows();
     let missing: Vec<usize> = (0..rows).filter(|row| entries[*row].is_none()).collect();
-    observer.taken_over(rows - missing.len());
+    watch.progress(&Progress::TakenOver(rows - missing.len()));
     let journal = Mutex::new(journal);
     let measured: Result<Vec<Option<(usize, Entry)>>, ResumptionError> = missing
         .par_iter()
         .with_max_len(1)
         .map(|&row| {
-            if observer.stop() {
+            if watch.stop() {
                 return Ok(None);
             }
             let entry = gauge::entry(gauge, job.grid.grid().node(row));
             let mut journal = journal.lock().unwrap_or_else(PoisonError::into_inner);
             journal.append(&KeptRow::new(row, &entry))?;
             drop(journal);
-            observer.row_done();
+            watch.progress(&Progress::Done(1));
             Ok(Some((row, entry)))
         })
         .collect();

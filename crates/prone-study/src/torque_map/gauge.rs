@@ -28,7 +28,7 @@ pub(super) trait Gauge: Sync {
 /// The statics.
 pub(super) struct StaticGauge<'r> {
     pub(super) robot: &'r Robot,
-    pub(super) source: StaticTorques<'r>,
+    pub(super) source: StaticTorques<&'r Robot>,
 }
 
 /// The settled simulation.

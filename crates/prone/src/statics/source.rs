@@ -1,5 +1,7 @@
 //! The statics as a [`TorqueSource`]: gait parameters to torques.
 
+use std::borrow::Borrow;
+
 use crate::chain::GaitParameters;
 use crate::mapping::{Mapping, MappingError};
 use crate::robot::{JointAngles, Range, Robot};
@@ -12,8 +14,8 @@ use super::{HalfRobot, Rest, RestError, Stance, SymmetryError, rest};
 /// The commanded pose is brought within the stops, as a servo would; torques have the recordings'
 /// sign ([`Rest::load`]) and are those of the right side, as recorded.
 #[derive(Debug)]
-pub struct StaticTorques<'r> {
-    robot: &'r Robot,
+pub struct StaticTorques<R: Borrow<Robot>> {
+    robot: R,
     half: HalfRobot,
     mapping: Mapping,
     stops: Vec<Range>,
@@ -41,20 +43,20 @@ pub enum StaticsError {
     },
 }
 
-impl<'r> StaticTorques<'r> {
+impl<R: Borrow<Robot>> StaticTorques<R> {
     /// A source; `stops` hold in the order of the robot's joints.
     ///
     /// # Errors
     /// [`SymmetryError`] where the robot is no mirrored one.
     pub fn new(
-        robot: &'r Robot,
+        robot: R,
         mapping: Mapping,
         stops: &[Range],
         stance: Stance,
     ) -> Result<Self, SymmetryError> {
         Ok(Self {
+            half: HalfRobot::of(robot.borrow())?,
             robot,
-            half: HalfRobot::of(robot)?,
             mapping,
             stops: stops.to_vec(),
             stance,
@@ -69,13 +71,13 @@ impl<'r> StaticTorques<'r> {
         let chain = self.mapping.chain().close(at)?;
         let joints = self
             .mapping
-            .joint_angles(self.robot, &chain)
+            .joint_angles(self.robot.borrow(), &chain)
             .map_err(|error| source(error.into()))?;
         let (stops, count) = (self.stops.len(), joints.as_slice().len());
         if stops != count {
             return Err(source(StaticsError::Stops {
                 stops,
-                robot: self.robot.name.clone(),
+                robot: self.robot.borrow().name.clone(),
                 joints: count,
             }));
         }
@@ -91,14 +93,15 @@ impl<'r> StaticTorques<'r> {
     /// [`TorqueGap`].
     pub fn rest(&self, at: GaitParameters) -> Result<Rest, TorqueGap> {
         let command = self.command(at)?;
-        rest(self.robot, &self.half, &command, self.stance).map_err(|error| source(error.into()))
+        let robot = self.robot.borrow();
+        rest(robot, &self.half, &command, self.stance).map_err(|error| source(error.into()))
     }
 }
 
-impl TorqueSource for StaticTorques<'_> {
+impl<R: Borrow<Robot> + Sync> TorqueSource for StaticTorques<R> {
     fn torques(&self, at: GaitParameters) -> Result<JointTorques, TorqueGap> {
         let rest = self.rest(at)?;
-        let joints = self.robot.chain.right.pitch_joints();
+        let joints = self.robot.borrow().chain.right.pitch_joints();
         Ok(JointTorques::from_array(
             joints.map(|joint| rest.load(joint)),
         ))

@@ -17,13 +17,13 @@ const PROGRAM: Program = Program {
 };
 
 /// Counts, and stops before a row.
-struct Watch {
+struct Counting {
     taken_over: AtomicUsize,
     done: AtomicUsize,
     stop_after: usize,
 }
 
-impl Watch {
+impl Counting {
     fn until(stop_after: usize) -> Self {
         Self {
             taken_over: AtomicUsize::new(0),
@@ -33,13 +33,15 @@ impl Watch {
     }
 }
 
-impl Observer for Watch {
-    fn taken_over(&self, rows: usize) {
-        self.taken_over.store(rows, Ordering::SeqCst);
-    }
-
-    fn row_done(&self) {
-        self.done.fetch_add(1, Ordering::SeqCst);
+impl Watch for Counting {
+    fn progress(&self, progress: &Progress<'_>) {
+        match *progress {
+            Progress::TakenOver(rows) => self.taken_over.store(rows, Ordering::SeqCst),
+            Progress::Done(rows) => {
+                self.done.fetch_add(rows, Ordering::SeqCst);
+            }
+            Progress::Simulating(_) | Progress::Searching(_) => {}
+        }
     }
 
     fn stop(&self) -> bool {
@@ -70,7 +72,7 @@ fn identity_a_stopped_build_goes_on_and_its_bytes_are_the_same() {
     let robot = nao();
     let job = job(&robot);
     let build = |threads, stop_after, opening| {
-        let watch = Watch::until(stop_after);
+        let watch = Counting::until(stop_after);
         let built = on_threads(threads, || run(&job, &out, opening, &watch));
         (
             built,
@@ -118,7 +120,7 @@ fn identity_a_built_map_is_read_with_its_masks_and_contacts() {
     let home = tempfile::tempdir().unwrap();
     let robot = nao();
     let job = job(&robot);
-    let watch = Watch::until(usize::MAX);
+    let watch = Counting::until(usize::MAX);
     let built = run(&job, &home.path().join("p"), Opening::Resume, &watch).unwrap();
     let read = torque_map::parse_recorded(&built.text).unwrap();
     let Summary {
@@ -156,7 +158,7 @@ fn identity_rows_are_what_the_sources_say() {
     let world = World::new(&robot, REGIME).unwrap();
     for source in [Source::Statics, Source::Simulation] {
         let job = Job::new(&robot, source, grid, &PROGRAM).unwrap();
-        let watch = Watch::until(usize::MAX);
+        let watch = Counting::until(usize::MAX);
         let path = home.path().join("p");
         let built = run(&job, &path, Opening::Restart, &watch).unwrap();
         let read = torque_map::parse_recorded(&built.text).unwrap();
@@ -166,7 +168,8 @@ fn identity_rows_are_what_the_sources_say() {
             let stance = Stance::unsqueezed(SupportRule::AnyShape);
             let stops = robot.robot().study_stops();
             let statics =
-                StaticTorques::new(robot.robot(), job.mapping.clone(), &stops, stance).unwrap();
+                StaticTorques::new(robot.robot().as_ref(), job.mapping.clone(), &stops, stance)
+                    .unwrap();
             let expected = match source {
                 Source::Statics => torque_map::row_of(&statics, at),
                 Source::Simulation => torque_map::row_of(&settled, at),

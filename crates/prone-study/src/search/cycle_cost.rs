@@ -11,15 +11,20 @@
 //! breaks a rule are not simulated: each counts as [`UNTRIED`]. So does a cycle that cannot be
 //! planned or crawled, with the reason.
 
+use std::sync::Arc;
+
 use prone::crawl::CrawlerError;
 use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale};
 use prone::gait::{Clamp, LimitsPolicy};
-use prone::robot::{JointAngles, JointId};
-use prone_record::frontier::{CycleObjective, SettingKind};
+use prone::robot::{JointAngles, JointId, Robot};
+use prone_optim::Interval;
+use prone_record::frontier::CycleObjective;
 use prone_sim::crawl::CrawlError;
 use prone_sim::self_collision::{SelfCollision, SelfCollisionError};
 
-use super::rules::{CycleRules, UNTRIED, above};
+use super::candidates::{Candidates, Cost, Depth, PointError, Refusal};
+use super::cycle_form::{CycleForm, CycleFormError};
+use super::cycle_rules::{CycleRules, UNTRIED, above};
 use super::setting::{Role, Setting};
 use super::trial::{Trial, try_out};
 
@@ -64,7 +69,7 @@ impl Merge {
 
 /// What a search goes after.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Aim {
+pub struct CycleAim {
     /// What is minimised.
     pub objective: CycleObjective,
     /// Of several settings.
@@ -73,41 +78,12 @@ pub struct Aim {
     pub rules: CycleRules,
 }
 
-/// A cycle's price.
-#[derive(Debug, Clone, PartialEq)]
-pub struct CyclePrice {
-    /// The objective where values count, merged; NaN where the cycle could not be crawled.
-    pub value: f64,
-    /// What is broken, in shares of the limits.
-    pub violation: f64,
-    /// The settings that were simulated.
-    pub trials: Vec<Trial>,
-    /// Why it could not be crawled, where it could not; what it breaks is counted all the same.
-    pub refusal: Option<Refusal>,
-}
-
-/// Why a cycle could not be crawled.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum Refusal {
-    /// It cannot be planned.
-    #[error(transparent)]
-    Plan(#[from] CycleError),
-    /// Its limbs cannot be compared.
-    #[error(transparent)]
-    Limbs(#[from] SelfCollisionError),
-    /// It cannot be crawled in a setting.
-    #[error("{setting}: {source}")]
-    Crawl {
-        /// Which.
-        setting: SettingKind,
-        /// Why.
-        source: CrawlError,
-    },
-}
-
-/// Why cycles cannot be priced.
+/// Why cycles have no costs.
 #[derive(Debug, thiserror::Error)]
-pub enum PricerError {
+pub enum CycleCostError {
+    /// There is no box about the base.
+    #[error(transparent)]
+    Form(#[from] CycleFormError),
     /// There is nothing to simulate.
     #[error("cycles are priced in at least one setting")]
     NoSettings,
@@ -133,113 +109,108 @@ pub enum PricerError {
     SelfCollision(#[from] SelfCollisionError),
 }
 
-/// Prices cycles.
-pub struct CyclePricer<'a> {
-    settings: &'a [Setting],
-    aim: Aim,
+/// Costs of cycles.
+#[derive(Debug)]
+pub struct CycleCosts {
+    settings: Arc<[Setting]>,
+    aim: CycleAim,
     allowed_clamps: Vec<Clamp>,
     collision: SelfCollision,
 }
 
-impl<'a> CyclePricer<'a> {
-    /// A pricer; no joint may be asked further past its stop than `base` asks it.
+impl CycleCosts {
+    /// Costs in settings; no joint may be asked further past its stop than `base` asks it.
     ///
     /// # Errors
-    /// [`PricerError`] where the base cannot be crawled, or nothing can be compared.
-    pub fn new(settings: &'a [Setting], aim: Aim, base: &Cycle) -> Result<Self, PricerError> {
-        let first = settings.first().ok_or(PricerError::NoSettings)?;
+    /// [`CycleCostError`] where the base cannot be crawled, or nothing can be compared.
+    pub fn new(
+        settings: Arc<[Setting]>,
+        aim: CycleAim,
+        base: &Cycle,
+    ) -> Result<Self, CycleCostError> {
+        let first = settings.first().ok_or(CycleCostError::NoSettings)?;
         let world = &first.world;
         if let Merge::WorstOver(others) = &aim.merge {
             let valued = settings.iter().filter(|it| it.spec.role == Role::Value);
             let (others, settings) = (others.len(), valued.count());
             if others != settings {
-                return Err(PricerError::Merge { others, settings });
+                return Err(CycleCostError::Merge { others, settings });
             }
         }
         let warm = aim.objective == CycleObjective::Heat || aim.rules.heat < f64::INFINITY;
         if warm && world.robot().joints.iter().all(|it| it.motor.is_none()) {
-            return Err(PricerError::NoMotor {
+            return Err(CycleCostError::NoMotor {
                 robot: world.robot().name.clone(),
             });
         }
         let checked = CheckedCycle::plan(world.robot(), world.stops(), base, 0.0, TimeScale::ONE)?;
         Ok(Self {
-            settings,
-            aim,
             allowed_clamps: checked.clamps().to_vec(),
             collision: SelfCollision::new(world)?,
+            settings,
+            aim,
         })
     }
 
-    /// The price of a cycle; settings after a broken one are left out.
-    pub fn price(&self, cycle: &Cycle) -> CyclePrice {
-        self.tried(cycle, Thoroughness::UntilBroken)
-    }
-
-    /// The price with every setting simulated.
-    pub fn quote(&self, cycle: &Cycle) -> CyclePrice {
-        self.tried(cycle, Thoroughness::Everything)
-    }
-
-    fn tried(&self, cycle: &Cycle, thoroughness: Thoroughness) -> CyclePrice {
-        let Aim {
+    /// The cost of a cycle; a search leaves out the settings after a broken one.
+    pub fn cost(&self, cycle: &Cycle, depth: Depth) -> Cost {
+        let CycleAim {
             objective,
             merge,
             rules,
         } = &self.aim;
-        let (violation, refusal) = self.broken_in_plan(cycle);
-        let mut price = CyclePrice {
-            value: f64::NAN,
-            violation,
-            trials: Vec::new(),
-            refusal,
-        };
+        let mut cost = self.cost_of_plan(cycle);
         for (index, setting) in self.settings.iter().enumerate() {
             let left = (self.settings.len() - index) as f64;
-            if price.violation > 0.0 && thoroughness == Thoroughness::UntilBroken {
-                price.violation += UNTRIED * left;
+            if cost.violation > 0.0 && depth == Depth::UntilBroken {
+                cost.add("untried", UNTRIED * left);
                 break;
             }
             let trial = match try_out(setting, cycle) {
                 Ok(trial) => trial,
                 Err(source) => {
-                    price.violation += UNTRIED * left + excess_speed_of_crawl(&source);
-                    price.refusal.get_or_insert(Refusal::Crawl {
+                    cost.add("untried", UNTRIED * left + excess_speed_of_crawl(&source));
+                    cost.refusal.get_or_insert(Refusal::Crawl {
                         setting: setting.spec.kind,
                         source,
                     });
                     break;
                 }
             };
-            let first = price
+            let first = cost
                 .trials
                 .first()
                 .map_or(trial.advance, |first: &Trial| first.advance);
             let servo = setting.world.regime().servo;
-            price.violation += rules.broken_by_trial(setting.spec.role, servo, &trial, first);
-            price.trials.push(trial);
+            cost.add_all(&rules.broken_by_trial(setting.spec.role, servo, &trial, first));
+            cost.trials.push(trial);
         }
-        let tried = self.settings.iter().zip(&price.trials);
+        let tried = self.settings.iter().zip(&cost.trials);
         let valued: Vec<&Trial> = tried
             .filter(|(setting, _)| setting.spec.role == Role::Value)
             .map(|(_, trial)| trial)
             .collect();
-        price.value = value(*objective, &valued, merge);
+        cost.value = value(*objective, &valued, merge);
         if !valued.is_empty() {
-            price.violation += rules.broken_by_heat(merge.heat(&valued));
+            cost.add("heat", rules.broken_by_heat(merge.heat(&valued)));
         }
-        price
+        cost
     }
 
     /// What is broken before anything moves, and why it will not move, where it will not.
-    fn broken_in_plan(&self, cycle: &Cycle) -> (f64, Option<Refusal>) {
+    fn cost_of_plan(&self, cycle: &Cycle) -> Cost {
+        let mut cost = Cost {
+            value: f64::NAN,
+            ..Cost::default()
+        };
         let Some(first) = self.settings.first() else {
-            return (UNTRIED, None);
+            cost.add("untried", UNTRIED);
+            return cost;
         };
         let world = &first.world;
         let robot = world.robot();
         let duration = cycle.duration(TimeScale::ONE);
-        let mut broken = self.aim.rules.broken_by_duration(duration);
+        cost.add("duration", self.aim.rules.broken_by_duration(duration));
         let clamping = Cycle {
             pull: prone::gait::Gait {
                 limits: LimitsPolicy::Clamp,
@@ -258,16 +229,63 @@ impl<'a> CyclePricer<'a> {
         let (postures, checked) = match plan {
             Ok(plan) => plan,
             Err(error) => {
-                broken += UNTRIED + excess_speed(&error);
-                return (broken, Some(error.into()));
+                cost.add("plan", UNTRIED + excess_speed(&error));
+                cost.refusal = Some(error.into());
+                return cost;
             }
         };
-        broken += clamped_further(&self.allowed_clamps, checked.clamps());
+        let further = clamped_further(&self.allowed_clamps, checked.clamps());
+        cost.add("limits", further);
         // Its engine data is scratch.
         match self.collision.clone().scan(&postures, f64::NEG_INFINITY) {
-            Ok(scan) => (broken + depth(scan.closest.closest.distance_m), None),
-            Err(error) => (broken + UNTRIED, Some(error.into())),
+            Ok(scan) => cost.add("limbs", depth_of(scan.closest.closest.distance_m)),
+            Err(error) => {
+                cost.add("limbs", UNTRIED);
+                cost.refusal = Some(error.into());
+            }
         }
+        cost
+    }
+}
+
+/// Cycles about one, and what they cost.
+#[derive(Debug)]
+pub struct CycleSearch {
+    form: CycleForm,
+    costs: CycleCosts,
+}
+
+impl CycleSearch {
+    /// Searches about a cycle in settings made by [`super::settings`].
+    ///
+    /// # Errors
+    /// [`CycleCostError`].
+    pub fn new(
+        robot: &Robot,
+        settings: &Arc<[Setting]>,
+        aim: CycleAim,
+        base: &Cycle,
+    ) -> Result<Self, CycleCostError> {
+        Ok(Self {
+            form: CycleForm::about(robot, base)?,
+            costs: CycleCosts::new(Arc::clone(settings), aim, base)?,
+        })
+    }
+}
+
+impl Candidates for CycleSearch {
+    type Gait = Cycle;
+
+    fn bounds(&self) -> &[Interval] {
+        self.form.bounds()
+    }
+
+    fn gait(&self, point: &[f64]) -> Result<Cycle, PointError> {
+        self.form.cycle(point)
+    }
+
+    fn cost(&self, cycle: &Cycle, depth: Depth) -> Cost {
+        self.costs.cost(cycle, depth)
     }
 }
 
@@ -294,12 +312,6 @@ fn clamped_further(allowed: &[Clamp], clamps: &[Clamp]) -> f64 {
         .sum()
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Thoroughness {
-    UntilBroken,
-    Everything,
-}
-
 /// Of a cycle that asks too much of a joint's speed, how much too much: a search can go down that
 /// slope.
 fn excess_speed(error: &CycleError) -> f64 {
@@ -319,7 +331,7 @@ fn excess_speed_of_crawl(error: &CrawlError) -> f64 {
 
 /// How deep limbs are in one another, over 10 mm, where they are `distance` apart, m; 0 where they
 /// are not in one another, and as much as an untried setting where they are nowhere.
-fn depth(distance: f64) -> f64 {
+fn depth_of(distance: f64) -> f64 {
     if distance.is_finite() {
         (-distance).max(0.0) / 0.01
     } else {

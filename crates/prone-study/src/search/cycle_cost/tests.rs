@@ -2,8 +2,10 @@ use prone::robot::BodyPart;
 use prone_files::shipped;
 use prone_sim::{LoadedRobot, RobotFiles};
 
+use super::super::cycles::usual_rules;
 use super::super::settings;
 use super::*;
+use prone_record::frontier::SettingKind;
 
 fn warm(heat_per_metre: f64) -> Trial {
     Trial {
@@ -28,7 +30,7 @@ fn cycle(name: &str) -> Cycle {
     shipped::cycle(name).unwrap().unwrap()
 }
 
-const ADVANCE: Aim = Aim {
+const ADVANCE: CycleAim = CycleAim {
     objective: CycleObjective::Advance,
     merge: Merge::Mean,
     rules: CycleRules::FREE,
@@ -73,7 +75,7 @@ fn a_cycle_is_as_warm_as_itself() {
     let cycle = cycle("thesis-nominal");
     let settings = settings::for_heat(&robot).unwrap();
     let merge = Merge::worst_over(&settings, &cycle).unwrap();
-    let aim = Aim {
+    let aim = CycleAim {
         objective: CycleObjective::Heat,
         merge,
         rules: CycleRules {
@@ -82,9 +84,8 @@ fn a_cycle_is_as_warm_as_itself() {
             ..CycleRules::FREE
         },
     };
-    let price = CyclePricer::new(&settings, aim, &cycle)
-        .unwrap()
-        .quote(&cycle);
+    let costs = CycleCosts::new(settings.into(), aim, &cycle).unwrap();
+    let price = costs.cost(&cycle, Depth::Everything);
     assert!((price.value - 1.0).abs() < 1e-12, "{}", price.value);
     assert_eq!(price.refusal, None);
     // Stiff servos demand several times as much; only the robot's own are held to the rule.
@@ -137,11 +138,11 @@ fn a_joint_may_not_be_asked_for_more_speed() {
 
 #[test]
 fn limbs_may_not_be_in_one_another() {
-    near(depth(0.001), 0.0);
-    near(depth(0.0), 0.0);
-    near(depth(-0.001), 0.1);
+    near(depth_of(0.001), 0.0);
+    near(depth_of(0.0), 0.0);
+    near(depth_of(-0.001), 0.1);
     for distance in [f64::NAN, f64::INFINITY] {
-        near(depth(distance), UNTRIED);
+        near(depth_of(distance), UNTRIED);
     }
 }
 
@@ -152,8 +153,8 @@ fn the_fastest_setting_decides_whether_joints_are_fast_enough() {
     let robot = nao();
     let base = cycle("low-175");
     let refused = |settings: &[Setting]| {
-        let pricer = CyclePricer::new(settings, ADVANCE, &base).unwrap();
-        pricer.broken_in_plan(&base).1
+        let costs = CycleCosts::new(settings.into(), ADVANCE, &base).unwrap();
+        costs.cost_of_plan(&base).refusal
     };
     let settings = settings::for_advance(&robot).unwrap();
     let scales: Vec<f64> = settings.iter().map(|it| it.spec.scale.value()).collect();
@@ -170,16 +171,16 @@ fn the_fastest_setting_decides_whether_joints_are_fast_enough() {
 fn in_plan(base: &Cycle, rules: CycleRules, cycle: &Cycle) -> (f64, Option<Refusal>) {
     let robot = nao();
     let settings = &settings::for_advance(&robot).unwrap()[..1];
-    let aim = Aim { rules, ..ADVANCE };
-    CyclePricer::new(settings, aim, base)
-        .unwrap()
-        .broken_in_plan(cycle)
+    let aim = CycleAim { rules, ..ADVANCE };
+    let costs = CycleCosts::new(settings.into(), aim, base).unwrap();
+    let cost = costs.cost_of_plan(cycle);
+    (cost.violation, cost.refusal)
 }
 
 #[test]
 fn a_shipped_cycle_breaks_nothing_in_its_plan_and_a_longer_one_its_duration() {
     let base = cycle("low-175");
-    let rules = settings::advance_rules(0.2, &base);
+    let rules = usual_rules(CycleObjective::Advance, 0.2, &base, nao().robot());
     assert_eq!(in_plan(&base, rules, &base), (0.0, None));
     let mut longer = base.clone();
     longer.approach.seconds += 0.1 * rules.seconds;
@@ -231,9 +232,10 @@ fn settings_after_a_broken_one_are_not_tried() {
         ceiling: 0.1,
         ..CycleRules::FREE
     };
-    let aim = Aim { rules, ..ADVANCE };
-    let pricer = CyclePricer::new(&settings, aim, &base).unwrap();
-    let (price, quote) = (pricer.price(&base), pricer.quote(&base));
+    let aim = CycleAim { rules, ..ADVANCE };
+    let costs = CycleCosts::new(settings.into(), aim, &base).unwrap();
+    let cost = |depth| costs.cost(&base, depth);
+    let (price, quote) = (cost(Depth::UntilBroken), cost(Depth::Everything));
     assert_eq!((price.trials.len(), quote.trials.len()), (1, 2));
     let too_high = |trial: &Trial| trial.top.0 / 0.1 - 1.0;
     near(price.violation, too_high(&price.trials[0]) + UNTRIED);
@@ -257,12 +259,13 @@ fn a_setting_that_cannot_be_crawled_is_named() {
     hasty.steering = cycle("low-175").steering;
     hasty.steering.as_mut().unwrap().limit = 3.0;
     hasty.steering.as_mut().unwrap().spread = 3.0;
-    let pricer = CyclePricer::new(&settings, ADVANCE, &base).unwrap();
-    let price = pricer.price(&hasty);
+    let kind = settings[1].spec.kind;
+    let costs = CycleCosts::new(settings.into(), ADVANCE, &base).unwrap();
+    let price = costs.cost(&hasty, Depth::UntilBroken);
     let Some(Refusal::Crawl { setting, source }) = price.refusal else {
         panic!("{price:?}");
     };
-    assert_eq!(setting, settings[1].spec.kind);
+    assert_eq!(setting, kind);
     near(price.violation, UNTRIED + excess_speed_of_crawl(&source));
 }
 
@@ -275,12 +278,12 @@ fn limit_what_cannot_be_compared_is_refused() {
         toml: shipped.toml.replace("\nmotor = ", "\n#"),
         ..shipped.clone()
     };
-    let refused = |files, aim: Aim| {
+    let refused = |files, aim: CycleAim| {
         let settings = settings(files);
-        let pricer = CyclePricer::new(&settings, aim, &base);
-        pricer.err().unwrap().to_string()
+        let costs = CycleCosts::new(settings.into(), aim, &base);
+        costs.err().unwrap().to_string()
     };
-    let other = Aim {
+    let other = CycleAim {
         merge: Merge::WorstOver(vec![1.0; 3]),
         ..ADVANCE
     };
@@ -289,7 +292,7 @@ fn limit_what_cannot_be_compared_is_refused() {
         "3 heats to compare with are given, and 2 settings have a value"
     );
     // Its heat would be 0, whatever it does.
-    let heat = Aim {
+    let heat = CycleAim {
         objective: CycleObjective::Heat,
         ..ADVANCE
     };

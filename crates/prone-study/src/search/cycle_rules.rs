@@ -9,10 +9,19 @@
 //! ```
 //!
 //! What is not a number keeps no rule: it breaks it by [`UNTRIED`].
+//!
+//! A search and a confirmation ask for the same things, height, advance and heading, with two
+//! differences that are on purpose:
+//!
+//! - In a search a cycle whose highest point is *at* the height breaks nothing, as violations are
+//!   continuous and that height is a margin below the ceiling. In a confirmation it does not hold,
+//!   as the height is the ceiling itself, and what touches it is stopped ([`holds`]).
+//! - A search's least advance is no less than its rules ask, a confirmation asks for a share of what
+//!   the cycle itself comes to in the first setting, and that it advances at all.
 
 use prone::regime::Servo;
 
-use super::setting::Role;
+use super::setting::{HOLDS, Role};
 use super::trial::Trial;
 
 /// Violation of a setting that was not simulated, of a cycle that cannot be crawled, and of a value
@@ -63,7 +72,7 @@ impl CycleRules {
         }
     }
 
-    /// What a trial breaks in a setting of a role and with servos; the first setting's advance is
+    /// What a trial breaks, rule by rule, in a setting of a role and with servos; the first setting's advance is
     /// what others keep a share of, m.
     pub(super) fn broken_by_trial(
         &self,
@@ -71,22 +80,26 @@ impl CycleRules {
         servo: Servo,
         trial: &Trial,
         first_advance: f64,
-    ) -> f64 {
+    ) -> Vec<(&'static str, f64)> {
         if role == Role::Beside {
-            return 0.0;
+            return Vec::new();
         }
         let least = match role.keep() {
             None => self.advance,
             Some(share) => share * first_advance.max(self.advance),
         };
-        let mut broken = below(trial.advance, least);
-        broken += role.misdirected(trial);
-        broken += above(trial.top.0, self.ceiling);
+        let mut broken = vec![
+            ("advance", below(trial.advance, least)),
+            ("heading", role.misdirected(trial)),
+            ("ceiling", above(trial.top.0, self.ceiling)),
+        ];
         if self.body_share < 1.0 && role == Role::Value {
-            broken += number(trial.body_share - self.body_share).max(0.0);
+            let excess = number(trial.body_share - self.body_share).max(0.0);
+            broken.push(("body-share", excess));
         }
         if servo == Servo::Robot {
-            broken += above(trial.demanded_shoulder, self.demanded_shoulder);
+            let excess = above(trial.demanded_shoulder, self.demanded_shoulder);
+            broken.push(("demanded-shoulder", excess));
         }
         broken
     }
@@ -101,6 +114,14 @@ impl Role {
             Self::Value | Self::Keep(_) | Self::Beside => 0.0,
         }
     }
+}
+
+/// Whether a cycle does in a setting what its role asks of a confirmation: it stays below the ceiling,
+/// m, goes where it should, advances, and keeps its share of the first setting's advance.
+pub fn holds(role: Role, trial: &Trial, kept: f64, ceiling: f64) -> bool {
+    let enough = kept >= role.keep().unwrap_or(HOLDS);
+    let directed = role.misdirected(trial) <= 0.0;
+    role == Role::Beside || (trial.top.0 < ceiling && enough && directed && trial.advance > 0.0)
 }
 
 /// Equation (1); what may be infinite is not held.

@@ -1,14 +1,28 @@
 //! Whether a robot gets under a ceiling, with which cycle, and what limits it.
 
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use prone::frames::{Ground, Root, Transform};
 use prone::gait::cycle::Cycle;
 use prone::robot::{ContactGroup, JointAngles, Robot};
+use prone_record::frontier::CycleObjective;
+use prone_record::search::{Search, SearchEnd};
+use prone_sim::LoadedRobot;
 use serde::Serialize;
 
+use super::candidates::Searched;
+use super::candidates::{Candidates as _, Depth};
+use super::cycle_cost::{CycleAim, CycleSearch, Merge};
+use super::cycles::{self, CycleSearchError};
+use super::run::SearchError;
 use super::setting::Setting;
+use super::settings;
 use super::trial::{Trial, try_out};
+use crate::watch::{Progress, Watch};
+use prone_optim::Threads;
 
 /// An answer.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -57,7 +71,7 @@ pub struct Tried {
 impl Passage {
     /// Tries cycles, each with where it comes from, under a ceiling, m, with a margin, m; none is
     /// crawled where not even a foot fits.
-    pub fn of<'a>(
+    pub fn try_all<'a>(
         robot: &Robot,
         setting: &Setting,
         cycles: impl IntoIterator<Item = (&'a Cycle, &'a str)>,
@@ -81,7 +95,7 @@ impl Passage {
         }
         for (cycle, origin) in cycles {
             match try_out(setting, cycle) {
-                Ok(trial) => passage.take(Tried::of(cycle, &trial, ceiling), origin),
+                Ok(trial) => passage.take(Tried::from_trial(cycle, &trial, ceiling), origin),
                 Err(error) => {
                     let name = cycle.pull.name.clone();
                     passage.refused.push((name, error.to_string()));
@@ -133,7 +147,7 @@ impl Passage {
 
 impl Tried {
     /// What a cycle came to under a ceiling, m.
-    pub fn of(cycle: &Cycle, trial: &Trial, ceiling: f64) -> Self {
+    pub fn from_trial(cycle: &Cycle, trial: &Trial, ceiling: f64) -> Self {
         Self {
             gait: cycle.pull.name.clone(),
             top_mm: trial.top.0 * 1e3,
@@ -144,6 +158,80 @@ impl Tried {
             peak_torque_over_rated: trial.peak_over_limit.0,
             peak_joint: trial.peak_over_limit.1.clone(),
         }
+    }
+}
+
+/// How a cycle is searched where none fits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PassageSearch {
+    /// Its seed.
+    pub seed: u64,
+    /// Most evaluations.
+    pub budget: u64,
+}
+
+/// Why there is no answer.
+#[derive(Debug, thiserror::Error)]
+pub enum PassageError {
+    /// Cycles cannot be searched.
+    #[error(transparent)]
+    Search(#[from] CycleSearchError),
+    /// The search has no result.
+    #[error(transparent)]
+    Result(#[from] SearchError),
+}
+
+impl PassageSearch {
+    /// Searches a cycle that fits under a passage's ceiling, about the lowest one there is; it goes
+    /// into the passage. Nothing where the budget is too small.
+    ///
+    /// # Errors
+    /// [`PassageError`].
+    pub fn run(
+        &self,
+        robot: &LoadedRobot,
+        cycles: &[Cycle],
+        passage: &mut Passage,
+        ceiling_mm: f64,
+        height: f64,
+        watch: &dyn Watch,
+    ) -> Result<Option<Cycle>, PassageError> {
+        let objective = CycleObjective::Advance;
+        let settings = settings::for_search(objective, robot);
+        let settings: Arc<[Setting]> = settings.map_err(CycleSearchError::from)?.into();
+        let base = cycles::base(robot, &settings[0], cycles, height)?;
+        let aim = CycleAim {
+            objective,
+            merge: Merge::Mean,
+            rules: cycles::usual_rules(objective, height, base, robot.robot()),
+        };
+        let searched = CycleSearch::new(robot.robot(), &settings, aim, base);
+        let searched = searched.map_err(CycleSearchError::from)?;
+        let mut search = Search::about_the_middle(self.seed, 1, self.budget);
+        let end = search.proceed(&Threads(Searched(&searched)), |search| {
+            watch.progress(&Progress::Searching(search));
+            if watch.stop() {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        });
+        if end == SearchEnd::Interrupted {
+            return Err(SearchError::Stopped.into());
+        }
+        let Some((_, best)) = search.best() else {
+            return Ok(None);
+        };
+        let mut cycle = searched.gait(&best.point).map_err(SearchError::from)?;
+        let cost = searched.cost(&cycle, Depth::Everything);
+        let ceiling_name = ceiling_mm.to_string().replace('.', "-");
+        cycle.pull.name = format!("under-{ceiling_name}-seed-{}", self.seed);
+        let Some(trial) = cost.trials.first() else {
+            return Ok(None);
+        };
+        let tried = Tried::from_trial(&cycle, trial, ceiling_mm * 1e-3);
+        passage.take(tried, "searched");
+        Ok(Some(cycle))
     }
 }
 
@@ -189,7 +277,6 @@ mod tests {
     use prone_sim::{LoadedRobot, RobotFiles};
 
     use super::*;
-    use crate::cycle_search::settings;
 
     #[test]
     fn reference_the_foot_decides_at_160_mm() {
@@ -202,7 +289,7 @@ mod tests {
             .collect();
         let under = |mm: f64| {
             let cycles = cycles.iter().map(|cycle| (cycle, "shipped"));
-            Passage::of(robot.robot(), &settings[0], cycles, mm * 1e-3, 3e-3)
+            Passage::try_all(robot.robot(), &settings[0], cycles, mm * 1e-3, 3e-3)
         };
         let low = under(160.0);
         assert!(!low.feasible && !low.may_be_searched());

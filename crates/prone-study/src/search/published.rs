@@ -14,13 +14,14 @@
 use prone::chain::ClosedChain;
 use prone::cost::published::{
     Coefficients, FREE, PublishedError, PublishedObjective, PublishedRules, SAMPLES, START,
-    VIOLATION_COST,
 };
 use prone::gait::{Curve, CurveError, CurveForm, Gait, LimitsPolicy};
 use prone::mapping::{ArmMode, MappingVariant};
 use prone::robot::Robot;
 use prone::torque_map::TorqueMap;
-use prone_optim::{Interval, IntervalError, Problem, Score};
+use prone_optim::{Failure, Interval, IntervalError, Problem, Score};
+
+use super::candidates::PointError;
 
 /// Bound of every coefficient.
 pub const BOUND: f64 = 2.0;
@@ -105,24 +106,29 @@ impl Problem for PublishedProblem {
         &self.bounds
     }
 
-    fn evaluate(&self, point: &[f64]) -> Score {
-        let Some(gait) = coefficients(point) else {
-            return Score::new(f64::MAX, 0.0);
-        };
+    fn evaluate(&self, point: &[f64]) -> Result<Score, Failure> {
+        let gait = coefficients(point).map_err(|error| Failure::from_error(&error))?;
         // The three coefficients that follow from the end have the same bounds.
         let outside = gait.outside(BOUND);
         if outside > 0.0 {
-            return Score::new(5.0 * SAMPLES as f64 + outside, 0.0);
+            return Ok(Score::new(5.0 * SAMPLES as f64 + outside, 0.0));
         }
         let price = self.objective.price(&gait);
-        Score::new(f64::from(price.violated.total()), price.torque)
+        let violated = f64::from(price.violated.total());
+        Ok(Score::new(violated, price.torque))
     }
 }
 
-/// The gait's coefficients of a point; `None` unless it has six numbers.
-pub fn coefficients(point: &[f64]) -> Option<Coefficients> {
-    let free: [f64; FREE] = point.try_into().ok()?;
-    Some(Coefficients::through_end(free))
+/// The gait's coefficients of a point.
+///
+/// # Errors
+/// [`PointError`] unless it has six numbers.
+pub fn coefficients(point: &[f64]) -> Result<Coefficients, PointError> {
+    let free: [f64; FREE] = point.try_into().map_err(|_| PointError::Numbers {
+        numbers: point.len(),
+        variables: FREE,
+    })?;
+    Ok(Coefficients::through_end(free))
 }
 
 /// A gait as the published objective sees it: c3, c2, c1 of its cubics. The objective has a start
@@ -166,10 +172,4 @@ pub fn gait(name: &str, coefficients: &Coefficients) -> Result<Gait, CurveError>
         arm: ArmMode::FlatForearm,
         limits: LimitsPolicy::Clamp,
     })
-}
-
-/// Equation (1) of [`prone::cost::published`] from a score of this problem, whose coefficients are
-/// within their bounds.
-pub fn cost(score: &Score) -> f64 {
-    score.value() + VIOLATION_COST * score.violation()
 }

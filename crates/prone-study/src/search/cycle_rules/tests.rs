@@ -39,7 +39,11 @@ fn on_the_limit() -> Trial {
 }
 
 fn broken(role: Role, trial: &Trial) -> f64 {
-    RULES.broken_by_trial(role, Servo::Robot, trial, FIRST)
+    in_all(&RULES.broken_by_trial(role, Servo::Robot, trial, FIRST))
+}
+
+fn in_all(broken: &[(&'static str, f64)]) -> f64 {
+    broken.iter().map(|(_, amount)| amount).sum()
 }
 
 #[track_caller]
@@ -147,7 +151,7 @@ fn a_share_is_at_least_that_of_the_least_advance() {
     let role = Role::Keep(0.85);
     for first in [0.2 * RULES.advance, 0.0, -1.0, f64::NAN] {
         near(
-            RULES.broken_by_trial(role, Servo::Robot, &trial, first),
+            in_all(&RULES.broken_by_trial(role, Servo::Robot, &trial, first)),
             0.5,
         );
     }
@@ -176,7 +180,7 @@ fn trunk_and_legs_may_not_carry_more_where_values_count() {
         ..on_the_limit()
     };
     near(
-        free.broken_by_trial(Role::Value, Servo::Robot, &trial, FIRST),
+        in_all(&free.broken_by_trial(Role::Value, Servo::Robot, &trial, FIRST)),
         0.0,
     );
 }
@@ -189,7 +193,7 @@ fn a_shoulders_own_servo_may_not_demand_more() {
                 demanded_shoulder,
                 ..on_the_limit()
             };
-            RULES.broken_by_trial(Role::Value, servo, &trial, FIRST)
+            in_all(&RULES.broken_by_trial(Role::Value, servo, &trial, FIRST))
         }
     };
     let limit = RULES.demanded_shoulder;
@@ -295,4 +299,46 @@ fn roles_keep_their_shares() {
         ..on_the_limit()
     };
     near(broken(Role::Turn(0.1), &slow), 0.5);
+}
+
+/// What a confirmation asks, one thing at a time.
+#[test]
+fn a_cycle_holds_where_it_is_low_far_and_straight() {
+    let trial = Trial {
+        setting: SettingKind::AsItIs,
+        advance: 0.1,
+        seconds: 4.0,
+        top: (0.17, BodyPart::Head),
+        heat_per_metre: 50.0,
+        peak_over_limit: (1.0, String::new()),
+        demanded_shoulder: 2.0,
+        shoulder_saturated: 0.0,
+        body_share: 0.1,
+        yaw: 0.03,
+    };
+    let at = |role: Role, kept: f64, ceiling: f64| super::holds(role, &trial, kept, ceiling);
+    assert!(at(Role::Value, 1.0, 0.18));
+    for ceiling in [0.16, 0.17, f64::NAN] {
+        assert!(!at(Role::Value, 1.0, ceiling), "under {ceiling} m");
+        assert!(at(Role::Beside, 0.0, ceiling), "beside");
+    }
+    // A share of its own, or the usual one.
+    for (role, share) in [(Role::Keep(0.6), 0.6), (Role::Value, HOLDS)] {
+        assert!(at(role, share, 0.18));
+        assert!(!at(role, share - 0.01, 0.18));
+        assert!(!at(role, f64::NAN, 0.18));
+    }
+    let straight = |yaw: f64| Role::Straight { yaw, keep: 0.6 };
+    assert!(at(straight(0.04), 1.0, 0.18));
+    assert!(!at(straight(0.02), 1.0, 0.18));
+    assert!(at(Role::Turn(0.02), 1.0, 0.18));
+    assert!(!at(Role::Turn(0.04), 1.0, 0.18));
+    for (advance, yaw) in [(-0.1, 0.03), (0.0, 0.03), (0.1, f64::NAN)] {
+        let bad = Trial {
+            advance,
+            yaw,
+            ..trial.clone()
+        };
+        assert!(!super::holds(straight(0.04), &bad, 1.0, 0.18), "{bad:?}");
+    }
 }

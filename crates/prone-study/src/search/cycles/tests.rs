@@ -1,12 +1,15 @@
-use prone::robot::BodyPart;
+use std::ops::ControlFlow;
+
 use prone_files::shipped;
+use prone_optim::Threads;
 use prone_sim::RobotFiles;
 
-use super::super::price::Merge;
-use super::super::rules::CycleRules;
+use super::super::candidates::Searched;
+use super::super::setting::Role;
 use super::super::settings::{for_advance, for_steering, for_steering_confirmation};
+use super::super::steering::NotSteered;
 use super::*;
-use prone_record::frontier::CycleObjective;
+use crate::watch::Unwatched;
 
 #[test]
 fn a_cycle_that_ships_with_steering_can_be_steered() {
@@ -52,22 +55,24 @@ fn a_steerable_search_finds_what_turns_to_the_left() {
     let mut settings = for_advance(&robot).unwrap();
     settings.truncate(1);
     settings.extend(for_steering(&robot).unwrap().into_iter().take(1));
+    let settings: Arc<[Setting]> = settings.into();
     let Role::Turn(least) = settings[1].spec.role else {
         panic!("{:?}", settings[1].spec);
     };
-    let aim = Aim {
+    let aim = CycleAim {
         objective: CycleObjective::Advance,
         merge: Merge::Mean,
         rules: CycleRules::FREE,
     };
     let left = shipped::cycle("low-175").unwrap().unwrap();
     let best = |base: &Cycle| {
-        let hunt = Hunt::new(robot.robot(), &settings, aim.clone(), base).unwrap();
+        let searched = CycleSearch::new(robot.robot(), &settings, aim.clone(), base).unwrap();
         let mut search = Search::about_the_middle(1, 1, 16);
-        hunt.proceed(&mut search, |_| std::ops::ControlFlow::Continue(()));
+        search.proceed(&Threads(Searched(&searched)), |_| ControlFlow::Continue(()));
         let (_, best) = search.best().unwrap();
-        let (_, price) = hunt.quote(&best.point).unwrap();
-        (price.trials[1].yaw, price.violation)
+        let cycle = searched.gait(&best.point).unwrap();
+        let cost = searched.cost(&cycle, Depth::Everything);
+        (cost.trials[1].yaw, cost.violation)
     };
     let (yaw, violation) = best(&left);
     assert!(yaw >= least && violation == 0.0, "{yaw} rad, {violation}");
@@ -79,7 +84,9 @@ fn a_steerable_search_finds_what_turns_to_the_left() {
         panic!("{refused}");
     };
     assert!(turned < 0.0, "{turned} rad");
-    assert!(!confirm(&confirmation, &reversed(&left), f64::INFINITY).holds);
+    let cycles = [(reversed(&left), f64::INFINITY)];
+    let confirmed = confirm::cycles(&cycles, &confirmation, &Unwatched).unwrap();
+    assert!(!confirmed[0].holds);
 }
 
 #[test]
@@ -100,46 +107,4 @@ fn where_no_cycle_can_be_crawled_each_says_why() {
     assert!(why.starts_with("  low-175: "), "{why}");
     assert!(why.contains("above its limit of"), "{why}");
     assert_eq!(lines.next(), None);
-}
-
-/// What a confirmation asks, one thing at a time.
-#[test]
-fn a_cycle_holds_where_it_is_low_far_and_straight() {
-    let trial = Trial {
-        setting: SettingKind::AsItIs,
-        advance: 0.1,
-        seconds: 4.0,
-        top: (0.17, BodyPart::Head),
-        heat_per_metre: 50.0,
-        peak_over_limit: (1.0, String::new()),
-        demanded_shoulder: 2.0,
-        shoulder_saturated: 0.0,
-        body_share: 0.1,
-        yaw: 0.03,
-    };
-    let at = |role: Role, kept: f64, ceiling: f64| does_hold(role, &trial, kept, ceiling);
-    assert!(at(Role::Value, 1.0, 0.18));
-    for ceiling in [0.16, 0.17, f64::NAN] {
-        assert!(!at(Role::Value, 1.0, ceiling), "under {ceiling} m");
-        assert!(at(Role::Beside, 0.0, ceiling), "beside");
-    }
-    // A share of its own, or the usual one.
-    for (role, share) in [(Role::Keep(0.6), 0.6), (Role::Value, HOLDS)] {
-        assert!(at(role, share, 0.18));
-        assert!(!at(role, share - 0.01, 0.18));
-        assert!(!at(role, f64::NAN, 0.18));
-    }
-    let straight = |yaw: f64| Role::Straight { yaw, keep: 0.6 };
-    assert!(at(straight(0.04), 1.0, 0.18));
-    assert!(!at(straight(0.02), 1.0, 0.18));
-    assert!(at(Role::Turn(0.02), 1.0, 0.18));
-    assert!(!at(Role::Turn(0.04), 1.0, 0.18));
-    for (advance, yaw) in [(-0.1, 0.03), (0.0, 0.03), (0.1, f64::NAN)] {
-        let bad = Trial {
-            advance,
-            yaw,
-            ..trial.clone()
-        };
-        assert!(!does_hold(straight(0.04), &bad, 1.0, 0.18), "{bad:?}");
-    }
 }

@@ -7,7 +7,7 @@
 //! B-spline:   n control points, cubic, clamped and uniform                       (2)
 //! ```
 //!
-//! (1) has no bound on the coefficients c3…c0; those of [`Parametrisation::bounds`] are bounds on
+//! (1) has no bound on the coefficients c3…c0; those of [`PullForm::bounds`] are bounds on
 //! where the joints go. The ends of α are always those of the base gait: they set the stroke,
 //! l5 (cos α(0) − cos α(1)), which gaits must share to be compared. The ends of θ3 and θ4 are kept
 //! or free ([`Ends`]).
@@ -92,7 +92,7 @@ pub enum FormError {
 
 /// A box of numbers and the gaits they stand for.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Parametrisation {
+pub struct PullForm {
     form: GaitForm,
     ends: Ends,
     base: Gait,
@@ -101,7 +101,7 @@ pub struct Parametrisation {
     bounds: Vec<Interval>,
 }
 
-impl Parametrisation {
+impl PullForm {
     /// Gaits of a form about a base gait, whose mapping, arms and limits policy they keep.
     ///
     /// # Errors
@@ -230,7 +230,7 @@ mod tests {
             (GaitForm::BSpline { points: 8 }, Ends::Fixed, 18),
             (GaitForm::BSpline { points: 8 }, Ends::Free, 22),
         ] {
-            let forms = Parametrisation::new(form, ends, &base()).unwrap();
+            let forms = PullForm::new(form, ends, &base()).unwrap();
             assert_eq!(forms.bounds().len(), count);
             let middle: Vec<f64> = forms.bounds().iter().map(|i| i.at(0.5)).collect();
             let gait = forms.gait(&middle).unwrap();
@@ -250,7 +250,7 @@ mod tests {
         for points in [0, 3, 33] {
             let form = GaitForm::BSpline { points };
             assert_eq!(
-                Parametrisation::new(form, Ends::Fixed, &base()).unwrap_err(),
+                PullForm::new(form, Ends::Fixed, &base()).unwrap_err(),
                 FormError::Points { points }
             );
         }
@@ -269,7 +269,7 @@ mod tests {
         #[test]
         fn identity_fixed_ends_stay(shares in prop::collection::vec(0.0..1.0_f64, 22)) {
             for (form, ends) in [(GaitForm::Cubic, Ends::Fixed), (GaitForm::BSpline { points: 8 }, Ends::Free)] {
-                let forms = Parametrisation::new(form, ends, &base()).unwrap();
+                let forms = PullForm::new(form, ends, &base()).unwrap();
                 let point: Vec<f64> = forms.bounds().iter().zip(&shares).map(|(i, &s)| i.at(s)).collect();
                 let gait = forms.gait(&point).unwrap();
                 for s in [0.0, 1.0] {

@@ -8,9 +8,11 @@
 use std::collections::BTreeMap;
 
 use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale};
-use prone::gait::{Curve, CurveError, PhaseDuration, PhaseDurationError};
+use prone::gait::{Curve, CurveError, PhaseDuration};
 use prone::robot::{Mirror, Range, Robot};
 use prone_optim::{Interval, IntervalError};
+
+use super::candidates::PointError;
 
 /// How far the curves of the pull may move from the middle, rad.
 const CURVE_REACH: f64 = 0.35;
@@ -74,25 +76,6 @@ pub enum CycleFormError {
     /// It makes no curve.
     #[error(transparent)]
     Curve(#[from] CurveError),
-}
-
-/// Why a point has no cycle.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum PointError {
-    /// It is a point of another box.
-    #[error("a point of {numbers} numbers is given, this box has {variables}")]
-    Numbers {
-        /// How many numbers it has.
-        numbers: usize,
-        /// How many the box has.
-        variables: usize,
-    },
-    /// It makes no curve.
-    #[error(transparent)]
-    Curve(#[from] CurveError),
-    /// The pull would be too short or too long.
-    #[error("the pull: {0}")]
-    Duration(#[from] PhaseDurationError),
 }
 
 impl CycleForm {
@@ -286,6 +269,7 @@ fn completed(robot: &Robot, cycle: &Cycle) -> Result<Cycle, CycleError> {
 
 #[cfg(test)]
 mod tests {
+    use prone::gait::PhaseDurationError;
     use prone_files::shipped;
     use prone_sim::{LoadedRobot, RobotFiles};
 

@@ -1,9 +1,9 @@
-//! The settings in which cycles are priced and checked.
+//! The settings in which cycles are searched and confirmed.
 //!
 //! All are the locomotion regime, with the manufacturer's effort and joint limits on; friction,
 //! servo gains, time scale and the engine's step are what its name says.
 
-use prone::gait::cycle::{Cycle, TimeScale, TimeScaleError};
+use prone::gait::cycle::{TimeScale, TimeScaleError};
 use prone::gait::{PhaseDuration, PhaseDurationError};
 use prone::regime::Regime;
 use prone::regime::Servo;
@@ -12,9 +12,8 @@ use prone::scene::SideFriction;
 use prone_optim::Random;
 use prone_sim::{LoadedRobot, WorldError};
 
-use super::rules::CycleRules;
-use super::setting::{Role, Setting, SettingSpec};
-use prone_record::frontier::SettingKind;
+use super::setting::{HOLDS, Role, Setting, SettingSpec};
+use prone_record::frontier::{CycleObjective, SettingKind};
 
 /// Friction of the locomotion regime and the span over which a cycle has to hold.
 const SLIPPERY: f64 = 0.4;
@@ -36,8 +35,6 @@ const TURN: f64 = 0.105;
 const DRIFT: f64 = 0.0524;
 /// Share of the advance that a search keeps where it has to hold: a confirmation asks for less.
 const KEEP: f64 = 0.85;
-/// Share that a confirmation asks for.
-pub const HOLDS: f64 = 0.8;
 
 /// Why there are no settings.
 #[derive(Debug, thiserror::Error)]
@@ -105,6 +102,34 @@ fn compiled<const N: usize>(
 ) -> Result<Vec<Setting>, SettingError> {
     let settings = specs.into_iter().map(|spec| Ok(spec.compile(robot)?));
     settings.collect()
+}
+
+/// For a search by an objective.
+///
+/// # Errors
+/// [`SettingError`].
+pub fn for_search(
+    objective: CycleObjective,
+    robot: &LoadedRobot,
+) -> Result<Vec<Setting>, SettingError> {
+    match objective {
+        CycleObjective::Heat | CycleObjective::Peak => for_heat(robot),
+        CycleObjective::Advance | CycleObjective::Speed => for_advance(robot),
+    }
+}
+
+/// For the confirmation of what such a search found.
+///
+/// # Errors
+/// [`SettingError`].
+pub fn for_confirmation_of(
+    objective: CycleObjective,
+    robot: &LoadedRobot,
+) -> Result<Vec<Setting>, SettingError> {
+    match objective {
+        CycleObjective::Heat | CycleObjective::Peak => for_heat_confirmation(robot),
+        CycleObjective::Advance | CycleObjective::Speed => for_confirmation(robot),
+    }
 }
 
 /// For a search of the advance: as it is, and the two corners in which it is hardest to hold.
@@ -232,23 +257,4 @@ pub fn for_heat_confirmation(robot: &LoadedRobot) -> Result<Vec<Setting>, Settin
         settings.push(other_pull.compile(robot)?);
     }
     Ok(settings)
-}
-
-/// Rules of a search of advance or speed below a height, m: no slower than the cycle that it is
-/// searched about.
-pub fn advance_rules(height: f64, base: &Cycle) -> CycleRules {
-    CycleRules {
-        ceiling: height,
-        seconds: base.duration(TimeScale::ONE),
-        ..CycleRules::FREE
-    }
-}
-
-/// Rules of a search of the heat per metre below a height, m.
-pub fn heat_rules(height: f64, robot: &Robot) -> CycleRules {
-    CycleRules {
-        ceiling: height,
-        advance: robot.search.least_advance,
-        ..CycleRules::FREE
-    }
 }

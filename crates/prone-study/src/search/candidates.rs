@@ -1,0 +1,180 @@
+//! What a search looks at: points that stand for gaits, and what these cost.
+
+use prone::gait::cycle::CycleError;
+use prone::gait::{CurveError, PhaseDurationError};
+use prone_optim::{Failure, Interval, Problem, Score};
+use prone_record::frontier::SettingKind;
+use prone_record::gait_search::Broken;
+use prone_sim::crawl::CrawlError;
+use prone_sim::self_collision::SelfCollisionError;
+
+use super::pull_trial::PullTrialError;
+use super::trial::Trial;
+
+/// Gaits of one form under one set of rules. It owns what it needs, so that a worker can hold it.
+pub trait Candidates: Send + Sync + 'static {
+    /// A pull or a cycle.
+    type Gait: Clone + Send + Sync;
+
+    /// Limits of each number of a point.
+    fn bounds(&self) -> &[Interval];
+
+    /// The gait of a point.
+    ///
+    /// # Errors
+    /// [`PointError`].
+    fn gait(&self, point: &[f64]) -> Result<Self::Gait, PointError>;
+
+    /// The cost of a gait, which depends on nothing but the gait.
+    fn cost(&self, gait: &Self::Gait, depth: Depth) -> Cost;
+
+    /// What an optimiser sees of a point.
+    ///
+    /// # Errors
+    /// [`Failure`] where the point has no gait.
+    fn score(&self, point: &[f64]) -> Result<Score, Failure> {
+        let gait = self
+            .gait(point)
+            .map_err(|error| Failure::from_error(&error))?;
+        Ok(self.cost(&gait, Depth::UntilBroken).score())
+    }
+}
+
+/// How far a cost is followed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Depth {
+    /// As far as a search needs it: what is beaten by its violations already is not simulated.
+    UntilBroken,
+    /// Everything that can be simulated is, whatever is broken.
+    Everything,
+}
+
+/// What a gait costs.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Cost {
+    /// What is minimised among gaits that break as much; NaN where it is not known.
+    pub value: f64,
+    /// What is broken in all, 0 for a gait that keeps the rules.
+    pub violation: f64,
+    /// The same rule by rule.
+    pub broken: Vec<Broken>,
+    /// The crawls that were simulated, one a setting.
+    pub trials: Vec<Trial>,
+    /// Why it could not be moved, where it could not; what it breaks is counted all the same.
+    pub refusal: Option<Refusal>,
+}
+
+/// Why a gait could not be moved, or has no cost.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Refusal {
+    /// The published objective has no cost for it.
+    #[error(
+        "gait {gait} has a curve that is no polynomial of degree 3 or less, and the objective `published` prices nothing else"
+    )]
+    NotCubic {
+        /// The gait's name.
+        gait: String,
+    },
+    /// The pull cannot be simulated.
+    #[error(transparent)]
+    Pull(#[from] PullTrialError),
+    /// The cycle cannot be planned.
+    #[error(transparent)]
+    Plan(#[from] CycleError),
+    /// Its limbs cannot be compared.
+    #[error(transparent)]
+    Limbs(#[from] SelfCollisionError),
+    /// It cannot be crawled in a setting.
+    #[error("{setting}: {source}")]
+    Crawl {
+        /// Which.
+        setting: SettingKind,
+        /// Why.
+        source: CrawlError,
+    },
+}
+
+/// Why a point has no gait.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum PointError {
+    /// It is a point of another box.
+    #[error("a point of {numbers} numbers is given, this box has {variables}")]
+    Numbers {
+        /// How many numbers it has.
+        numbers: usize,
+        /// How many the box has.
+        variables: usize,
+    },
+    /// It makes no curve.
+    #[error(transparent)]
+    Curve(#[from] CurveError),
+    /// The pull would be too short or too long.
+    #[error("the pull: {0}")]
+    Duration(#[from] PhaseDurationError),
+}
+
+impl Cost {
+    /// Adds what is broken of a rule.
+    pub(super) fn add(&mut self, rule: &'static str, amount: f64) {
+        self.add_all(&[(rule, amount)]);
+    }
+
+    /// Adds what is broken of several rules, which are summed up first.
+    pub(super) fn add_all(&mut self, rules: &[(&'static str, f64)]) {
+        self.violation += rules.iter().map(|(_, amount)| amount).sum::<f64>();
+        for &(rule, sum) in rules.iter().filter(|(_, amount)| *amount > 0.0) {
+            match self.broken.iter_mut().find(|broken| broken.rule == rule) {
+                Some(broken) => {
+                    broken.count += 1;
+                    broken.sum += sum;
+                }
+                None => self.broken.push(Broken {
+                    rule: rule.into(),
+                    count: 1,
+                    sum,
+                }),
+            }
+        }
+    }
+
+    /// As scores compare: violation before value. Where a rule is broken, a value that is not known
+    /// does not count. Where none is, it stays not a number, which never wins.
+    pub fn score(&self) -> Score {
+        let known = !(self.value.is_nan() && self.violation > 0.0);
+        Score::new(self.violation, if known { self.value } else { 0.0 })
+    }
+}
+
+/// Candidates as the problem of an optimiser.
+#[derive(Debug)]
+pub struct Searched<'a, C>(pub &'a C);
+
+impl<C: Candidates> Problem for Searched<'_, C> {
+    fn bounds(&self) -> &[Interval] {
+        self.0.bounds()
+    }
+
+    fn evaluate(&self, point: &[f64]) -> Result<Score, Failure> {
+        self.0.score(point)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limit_an_unknown_value_never_wins() {
+        let score = |violation, value| {
+            let cost = Cost {
+                value,
+                violation,
+                ..Cost::default()
+            };
+            cost.score()
+        };
+        assert!(score(0.0, 1e300).beats(&score(0.0, f64::NAN)));
+        assert_eq!(score(0.5, f64::NAN), Score::new(0.5, 0.0));
+        assert_eq!(score(0.5, 3.0), Score::new(0.5, 3.0));
+    }
+}

@@ -1,0 +1,544 @@
+//! What a pull costs: by the published objective, or by torque with violations graded and kept apart.
+//!
+//! Torque comes from a map, from the statics or from a simulation of each gait. What the planned chain
+//! breaks is graded first ([`graded::violations`]), and a search does not simulate such a gait. The
+//! same holds for one that the robot cannot be commanded or that makes the simulation diverge: it has
+//! the rule [`Rule::Torque`] broken, and a violation of at least 1 puts it behind every gait that was
+//! simulated. In simulation the share of the weight on trunk and legs may not pass a limit, or the
+//! search lays the robot on its belly, where torque costs nothing.
+//!
+//! [`graded::violations`]: prone::cost::graded::violations
+
+use std::sync::Arc;
+
+use prone::chain::ClosedChain;
+use prone::cost::graded::{self, Norm, Per, Rule, Rules, Violations};
+use prone::cost::objective::{NoMotor, Objective};
+use prone::cost::published::{PublishedObjective, PublishedRules, VIOLATION_COST, WEIGHTS};
+use prone::gait::{Gait, PhaseDuration};
+use prone::mapping::{ArmMode, Mapping, MappingError};
+use prone::robot::Robot;
+use prone::statics::{Stance, StaticTorques, SupportRule, SymmetryError};
+use prone::torque_map::{TorqueMap, TorqueSource};
+use prone_optim::{Failure, Interval, Problem as _, Score};
+use prone_record::gait_search::{Broken, Priced};
+use prone_sim::World;
+use prone_sim::pull::{self, Keep, Pull, PullError, Start};
+
+use super::candidates::{Candidates, Cost, Depth, PointError, Refusal};
+use super::chain_rules::{self, ChainRules, Clearance, phase, samples};
+use super::published::{self, PublishedProblem, PublishedProblemError};
+use super::pull_form::PullForm;
+use super::pull_trial::{self, Begun, PullTrialError};
+use crate::torque_map::{NodeGrid, NodeGridError};
+
+/// Grid of the table that the statics fills for the published objective: the finer published one,
+/// with θ4 up to where the published gaits go (Bell 2015, table 2: 27.5°), degrees.
+const STEP_DEG: f64 = 2.5;
+const THETA4_MAX_DEG: f64 = 27.5;
+
+/// Intervals of a phase whose torques are looked up, as in the published objective. The rules are
+/// held against a finer grid.
+const INTERVALS: usize = 100;
+
+/// What is minimised.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PullAim {
+    /// The published cost: violated samples, then torque.
+    Published(PublishedRules),
+    /// Torque, with violations graded and kept apart.
+    Graded(Objective),
+}
+
+/// Where torques come from.
+#[derive(Debug, Clone)]
+pub enum Source {
+    /// A table of them.
+    Map {
+        /// The table.
+        map: Arc<TorqueMap>,
+        /// Its file, as the user named it.
+        file: String,
+        /// Of the file's text.
+        sha256: String,
+    },
+    /// The static solver.
+    Statics,
+    /// A simulation of each gait.
+    Dynamics,
+}
+
+/// Whether a cost is per phase or per metre of planned advance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Share {
+    /// One phase.
+    Phase,
+    /// One metre.
+    Metre,
+}
+
+/// Everything that decides a cost.
+#[derive(Debug, Clone)]
+pub struct PullTerms {
+    /// What is minimised.
+    pub aim: PullAim,
+    /// Where torques come from.
+    pub source: Source,
+    /// The gait whose mapping, arms and ends hold.
+    pub base: Gait,
+    /// Per phase or per metre.
+    pub share: Share,
+    /// What the planned chain keeps to.
+    pub rules: ChainRules,
+    /// How long a pull lasts. A phase of equal postures costs in proportion to it.
+    pub duration: PhaseDuration,
+    /// Largest share of the weight on trunk and legs in simulation, 0 to 1.
+    pub body_share: f64,
+    /// The gait whose share that is, where it is one's.
+    pub body_share_of: Option<String>,
+}
+
+/// Costs of gaits that share mapping and arms.
+#[derive(Debug)]
+pub struct PullCosts {
+    world: World,
+    terms: PullTerms,
+    method: Method,
+}
+
+/// How costs come about.
+#[derive(Debug)]
+enum Method {
+    Published {
+        /// As published.
+        objective: Box<PublishedObjective>,
+        /// As it is searched.
+        problem: Box<PublishedProblem>,
+    },
+    Graded {
+        mapping: Box<Mapping>,
+        norm: Norm,
+        torques: Torques,
+    },
+}
+
+#[derive(Debug)]
+enum Torques {
+    Map(Arc<TorqueMap>),
+    Statics(Box<StaticTorques<Arc<Robot>>>),
+    Simulated(Box<Begun>),
+}
+
+/// Why gaits have no cost so.
+#[derive(Debug, thiserror::Error)]
+pub enum PullCostError {
+    /// The published objective cannot be made.
+    #[error(transparent)]
+    Published(#[from] PublishedProblemError),
+    /// There is no grid to measure a table on, which constants exclude.
+    #[error(transparent)]
+    Grid(#[from] NodeGridError),
+    /// It looks torques up; a simulation of a whole gait has no table.
+    #[error(
+        "the objective `published` looks torques up in a table; its source is a file or `statics`"
+    )]
+    PublishedNeedsTable,
+    /// The robot lacks what the objective needs.
+    #[error(transparent)]
+    NoMotor(#[from] NoMotor),
+    /// The base gait's mapping does not fit the robot.
+    #[error(transparent)]
+    Mapping(#[from] MappingError),
+    /// The statics needs a mirrored robot.
+    #[error(transparent)]
+    Symmetry(#[from] SymmetryError),
+}
+
+/// A gait that has no cost per metre.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum AdvanceError {
+    /// Its mapping does not fit the robot.
+    #[error(transparent)]
+    Mapping(#[from] MappingError),
+    /// The ends of its upper arm's curve do not carry the shoulder forward.
+    #[error(
+        "gait {gait} has no price per metre: its shoulder advances {advance_mm:.1} mm in a pull"
+    )]
+    NoAdvance {
+        /// The gait's name.
+        gait: String,
+        /// Planned advance, mm.
+        advance_mm: f64,
+    },
+}
+
+impl PullAim {
+    /// The torque objective, the published one's weights included.
+    pub const fn objective(&self) -> Objective {
+        match self {
+            Self::Graded(objective) => *objective,
+            Self::Published(_) => Objective::Torque { weights: WEIGHTS },
+        }
+    }
+}
+
+impl Source {
+    /// In a word: of a file its name, wherever it is.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Map { file, .. } => {
+                let name = std::path::Path::new(file).file_name();
+                name.and_then(|name| name.to_str()).unwrap_or(file)
+            }
+            Self::Statics => "statics",
+            Self::Dynamics => "dynamics",
+        }
+    }
+}
+
+impl Share {
+    /// Name in files and records.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Phase => "phase",
+            Self::Metre => "metre",
+        }
+    }
+
+    fn of(self, chain: &ClosedChain, gait: &Gait) -> Per {
+        match self {
+            Self::Phase => Per::Phase,
+            Self::Metre => Per::Metre {
+                advance: advance(chain, gait),
+            },
+        }
+    }
+}
+
+impl PullCosts {
+    /// Costs in a world, of gaits that share mapping and arms with the base of `terms`.
+    ///
+    /// # Errors
+    /// [`PullCostError`].
+    pub fn new(world: &World, terms: PullTerms) -> Result<Self, PullCostError> {
+        let robot = world.robot();
+        let base = &terms.base;
+        let method = match terms.aim {
+            PullAim::Published(rules) => {
+                let map = match &terms.source {
+                    Source::Map { map, .. } => Arc::clone(map),
+                    Source::Statics => {
+                        let grid = NodeGrid::new(STEP_DEG, THETA4_MAX_DEG)?;
+                        Arc::new(TorqueMap::measure(*grid.grid(), &statics(world, base)?))
+                    }
+                    Source::Dynamics => return Err(PullCostError::PublishedNeedsTable),
+                };
+                Method::Published {
+                    objective: Box::new(published::objective(robot, &map, rules)?),
+                    problem: Box::new(PublishedProblem::new(robot, &map, rules)?),
+                }
+            }
+            PullAim::Graded(objective) => Method::Graded {
+                norm: objective.norm(robot)?,
+                mapping: Box::new(Mapping::new(robot, base.mapping, base.arm)?),
+                torques: match &terms.source {
+                    Source::Map { map, .. } => Torques::Map(Arc::clone(map)),
+                    Source::Statics => Torques::Statics(Box::new(statics(world, base)?)),
+                    Source::Dynamics => {
+                        Torques::Simulated(Box::new(Begun::settle(world, base, terms.duration)))
+                    }
+                },
+            },
+        };
+        Ok(Self {
+            world: world.clone(),
+            terms,
+            method,
+        })
+    }
+
+    /// What decides these costs.
+    pub const fn terms(&self) -> &PullTerms {
+        &self.terms
+    }
+
+    /// The world in which they hold.
+    pub const fn world(&self) -> &World {
+        &self.world
+    }
+
+    /// The cost of a gait.
+    pub fn cost(&self, gait: &Gait, depth: Depth) -> Cost {
+        match &self.method {
+            Method::Published { objective, .. } => published_cost(objective, gait),
+            Method::Graded {
+                mapping,
+                norm,
+                torques,
+            } => {
+                let (robot, terms) = (self.world.robot(), &self.terms);
+                let broken = terms.rules.broken(robot, mapping, gait, terms.duration);
+                match torques {
+                    Torques::Map(map) => self.looked_up(gait, map.as_ref(), mapping, norm, broken),
+                    Torques::Statics(statics) => {
+                        self.looked_up(gait, statics.as_ref(), mapping, norm, broken)
+                    }
+                    Torques::Simulated(_)
+                        if depth == Depth::UntilBroken && broken.total() > 0.0 =>
+                    {
+                        unsimulated(broken, None)
+                    }
+                    Torques::Simulated(_) => self.simulated(gait, mapping, norm, broken),
+                }
+            }
+        }
+    }
+
+    /// The simulated pull of a gait, whatever rules it breaks.
+    ///
+    /// # Errors
+    /// [`PullError`].
+    pub fn pull(&self, gait: &Gait) -> Result<Pull, PullError> {
+        let (world, duration) = (&self.world, self.terms.duration);
+        match &self.method {
+            Method::Graded {
+                torques: Torques::Simulated(begun),
+                ..
+            } => begun.pull(world, gait, duration),
+            _ => pull::run(world, gait, duration, Start::FirstPose, Keep::Rows),
+        }
+    }
+
+    /// By a source of static torques: the statics, or a torque map.
+    fn looked_up(
+        &self,
+        gait: &Gait,
+        torques: &impl TorqueSource,
+        mapping: &Mapping,
+        norm: &Norm,
+        mut violations: Violations,
+    ) -> Cost {
+        let none = Rules {
+            clearance: 0.0,
+            height: |_: &_| 0.0,
+            rate: f64::INFINITY,
+        };
+        let samples = samples(gait, INTERVALS);
+        let (chain, phase) = (mapping.chain(), phase(&samples, self.terms.duration));
+        let per = self.terms.share.of(chain, gait);
+        let price = graded::price(chain, phase, torques, &none, norm, per);
+        let gaps = price.violations.iter();
+        for (rule, excess) in gaps.filter(|(rule, _)| *rule == Rule::Torque) {
+            violations.add(rule, excess.sum);
+        }
+        graded_cost(price.torque, &violations, None)
+    }
+
+    fn simulated(
+        &self,
+        gait: &Gait,
+        mapping: &Mapping,
+        norm: &Norm,
+        mut violations: Violations,
+    ) -> Cost {
+        let terms = &self.terms;
+        let trial = || {
+            let pull = self.pull(gait)?;
+            let torque = pull_trial::torque_part(self.world.robot(), &pull, norm)?;
+            Ok::<_, PullTrialError>((torque, pull_trial::body_share(&pull)))
+        };
+        let (torque, body_share) = match trial() {
+            Ok(trial) => trial,
+            Err(error) => return unsimulated(violations, Some(error)),
+        };
+        let torque = match terms.share.of(mapping.chain(), gait) {
+            Per::Phase => torque,
+            Per::Metre { advance } => torque / advance,
+        };
+        if terms.body_share < 1.0 {
+            let excess = (body_share - terms.body_share) / (1.0 - terms.body_share);
+            violations.add(Rule::BodyShare, excess);
+        }
+        graded_cost(torque, &violations, None)
+    }
+
+    /// A cost in the form of a record.
+    pub fn record(&self, cost: &Cost) -> Priced {
+        let known = Some(cost.value).filter(|value| !value.is_nan());
+        Priced {
+            cost: match self.method {
+                Method::Published { .. } => known.map(|it| it + VIOLATION_COST * cost.violation),
+                Method::Graded { .. } => known,
+            },
+            torque: known,
+            violations: cost.violation,
+            broken: cost.broken.clone(),
+        }
+    }
+}
+
+/// Pulls of one form, and what they cost; the published objective has a form of its own.
+#[derive(Debug)]
+pub struct PullSearch {
+    /// What they cost.
+    pub costs: PullCosts,
+    /// What they are made of.
+    pub form: PullForm,
+}
+
+impl Candidates for PullSearch {
+    type Gait = Gait;
+
+    fn bounds(&self) -> &[Interval] {
+        match &self.costs.method {
+            Method::Published { problem, .. } => problem.bounds(),
+            Method::Graded { .. } => self.form.bounds(),
+        }
+    }
+
+    fn gait(&self, point: &[f64]) -> Result<Gait, PointError> {
+        match &self.costs.method {
+            Method::Published { .. } => Ok(published::gait(
+                "published",
+                &published::coefficients(point)?,
+            )?),
+            Method::Graded { .. } => Ok(self.form.gait(point)?),
+        }
+    }
+
+    fn cost(&self, gait: &Gait, depth: Depth) -> Cost {
+        self.costs.cost(gait, depth)
+    }
+
+    fn score(&self, point: &[f64]) -> Result<Score, Failure> {
+        match &self.costs.method {
+            // Its rules are searched with a margin.
+            Method::Published { problem, .. } => problem.evaluate(point),
+            Method::Graded { .. } => {
+                let gait = self.form.gait(point);
+                let gait = gait.map_err(|error| Failure::from_error(&error))?;
+                Ok(self.cost(&gait, Depth::UntilBroken).score())
+            }
+        }
+    }
+}
+
+fn published_cost(objective: &PublishedObjective, gait: &Gait) -> Cost {
+    let Some(coefficients) = published::coefficients_of(gait) else {
+        return Cost {
+            value: f64::NAN,
+            violation: f64::MAX,
+            refusal: Some(Refusal::NotCubic {
+                gait: gait.name.clone(),
+            }),
+            ..Cost::default()
+        };
+    };
+    let price = objective.price(&coefficients);
+    let violated = price.violated;
+    let counts = [
+        ("arm-returns", violated.arm_returns),
+        ("hip-low", violated.hip_low),
+        ("knee-range", violated.knee_range),
+        ("hip-range", violated.hip_range),
+        ("arm-range", violated.arm_range),
+    ];
+    let broken = counts.into_iter().filter(|(_, count)| *count > 0);
+    let broken = broken.map(|(rule, count)| Broken {
+        rule: rule.into(),
+        count,
+        sum: f64::from(count),
+    });
+    Cost {
+        value: price.torque,
+        violation: f64::from(violated.total()),
+        broken: broken.collect(),
+        ..Cost::default()
+    }
+}
+
+fn graded_cost(torque: f64, violations: &Violations, refusal: Option<Refusal>) -> Cost {
+    let broken = violations.iter().map(|(rule, excess)| Broken {
+        rule: rule.name().into(),
+        count: excess.count,
+        sum: excess.sum,
+    });
+    Cost {
+        value: torque,
+        violation: violations.total(),
+        broken: broken.collect(),
+        trials: Vec::new(),
+        refusal,
+    }
+}
+
+/// The cost of a gait that was not simulated: its torque part is not known.
+fn unsimulated(mut violations: Violations, why: Option<PullTrialError>) -> Cost {
+    violations.add(Rule::Torque, 1.0);
+    graded_cost(f64::NAN, &violations, why.map(Refusal::from))
+}
+
+/// The statics of gaits with the base's mapping and arms. Flat forearms rest on their elbows.
+fn statics(world: &World, base: &Gait) -> Result<StaticTorques<Arc<Robot>>, PullCostError> {
+    let supports = match base.arm {
+        ArmMode::FlatForearm => SupportRule::ElbowNotHand,
+        ArmMode::Fixed => SupportRule::AnyShape,
+    };
+    let robot = world.shared_robot();
+    let mapping = Mapping::new(&robot, base.mapping, base.arm)?;
+    let stance = Stance::unsqueezed(supports);
+    Ok(StaticTorques::new(robot, mapping, world.stops(), stance)?)
+}
+
+/// How far the shoulder of the planned chain advances, m.
+fn advance(chain: &ClosedChain, gait: &Gait) -> f64 {
+    let arm = |s: f64| gait.upper_arm.value(s).cos();
+    chain.shoulder_to_elbow * (arm(0.0) - arm(1.0))
+}
+
+/// Shortest advance that a cost is divided by, m.
+const SHORTEST_ADVANCE: f64 = 1e-3;
+
+/// Whether a gait, and with it every one whose upper arm has the same ends, has a cost per metre.
+///
+/// # Errors
+/// [`AdvanceError`].
+pub fn check_advance(robot: &Robot, gait: &Gait) -> Result<(), AdvanceError> {
+    let mapping = Mapping::new(robot, gait.mapping, gait.arm)?;
+    let advance = advance(mapping.chain(), gait);
+    if advance >= SHORTEST_ADVANCE {
+        return Ok(());
+    }
+    Err(AdvanceError::NoAdvance {
+        gait: gait.name.clone(),
+        advance_mm: advance * 1e3,
+    })
+}
+
+/// What a hip may be lower than the base gait's, m: the published gaits print five digits of the
+/// same first pose, which is 5e-7 m.
+const HIP_TOLERANCE: f64 = 1e-5;
+
+/// The lowest hip of a gait's planned chain, m: a clearance that gaits about it can keep.
+///
+/// # Errors
+/// [`MappingError`].
+pub fn lowest_hip(world: &World, gait: &Gait) -> Result<Clearance, MappingError> {
+    let mapping = Mapping::new(world.robot(), gait.mapping, gait.arm)?;
+    let chain = mapping.chain();
+    let heights = samples(gait, chain_rules::INTERVALS)
+        .into_iter()
+        .filter_map(|at| chain.close(at).ok())
+        .map(|angles| chain.posture(&angles).hip.z());
+    let lowest = heights.fold(f64::INFINITY, f64::min);
+    Ok(Clearance::Hip(lowest - HIP_TOLERANCE))
+}
+
+/// The share of the weight on trunk and legs in a gait's simulated pull, 0 to 1.
+///
+/// # Errors
+/// [`PullError`] where it cannot be simulated.
+pub fn body_share(world: &World, gait: &Gait, duration: PhaseDuration) -> Result<f64, PullError> {
+    let pull = pull::run(world, gait, duration, Start::FirstPose, Keep::Rows)?;
+    Ok(pull_trial::body_share(&pull))
+}

@@ -1,0 +1,373 @@
+//! Searching pulls: by any of the torque sources, confirmed at other durations and in both contact
+//! regimes.
+
+use prone::gait::{CheckedTrajectory, Gait, PhaseDuration};
+use prone::regime::Regime;
+use prone_files::{gait_file, text_file};
+use prone_optim::Candidate;
+use prone_record::curves_info::CurvesInfo;
+use prone_record::gait_search::{
+    self, Compared, Confirmation, Outcome, Priced, Refusal, RunOutcome, Verdict,
+};
+use prone_record::output::Artefacts;
+use prone_record::program::RobotInfo;
+use prone_record::search::{Search, SearchEnd, SeededRun};
+use prone_record::search_plan::{
+    ClearancePlan, GradedPlan, PullAimPlan, PullCostPlan, PullPlan, SearchHead, SearchPlan,
+    SourcePlan,
+};
+use prone_record::tables;
+use prone_report::figures::{self, ConfirmedRecord, Scores, SearchRecord};
+use prone_sim::{LoadedRobot, World, WorldError};
+
+use super::candidates::{Candidates as _, Depth, Refusal as NoCost};
+use super::chain_rules::{Clearance, INTERVALS};
+use super::confirm::{self, PullSetting};
+use super::pull_cost::{PullAim, PullCosts, PullSearch, Source};
+use super::pull_form::PullForm;
+use super::run::{Job, SearchError, SearchRun, draw};
+use crate::pulls;
+use crate::watch::Watch;
+use prone::cost::objective::Objective;
+
+/// A search of pulls.
+#[derive(Debug)]
+pub struct PullRun {
+    plan: SearchPlan,
+    /// One.
+    jobs: Vec<Job<PullSearch>>,
+    /// Name of the found gait.
+    name: String,
+    /// The base gait first.
+    compared: Vec<Gait>,
+    confirmation: Vec<PullSetting>,
+}
+
+/// Under which name a found pull is confirmed, beside what, and how fast.
+#[derive(Debug, Clone)]
+pub struct PullConfirmation {
+    /// Name of the found gait.
+    pub name: String,
+    /// Other gaits, the base gait first.
+    pub compared: Vec<Gait>,
+    /// How long pulls last.
+    pub durations: Vec<PhaseDuration>,
+}
+
+impl PullRun {
+    /// Prepares a search; `head` says by whom, with which seeds and budget.
+    ///
+    /// # Errors
+    /// [`WorldError`].
+    pub fn new(
+        robot: &LoadedRobot,
+        costs: PullCosts,
+        form: PullForm,
+        confirmation: PullConfirmation,
+        mut head: SearchHead,
+    ) -> Result<Self, WorldError> {
+        let PullConfirmation {
+            name,
+            compared,
+            durations,
+        } = confirmation;
+        let base = &costs.terms().base;
+        head.base_sha256.insert(
+            base.name.clone(),
+            text_file::sha256(&[&gait_file::write(base, "")]),
+        );
+        let plan = SearchPlan::Pull(Box::new(PullPlan {
+            head,
+            pricing: cost_plan(&costs, robot),
+            form: form.form().to_string(),
+            ends: form.ends().name().to_owned(),
+            name: name.clone(),
+            confirm_durations_s: durations.iter().map(|it| it.seconds()).collect(),
+        }));
+        let worlds = [
+            costs.world().clone(),
+            World::new(robot, Regime::LOCOMOTION)?,
+        ];
+        let confirmation = worlds.iter().flat_map(|world| {
+            let setting = |&duration| PullSetting {
+                world: world.clone(),
+                duration,
+            };
+            durations.iter().map(setting)
+        });
+        Ok(Self {
+            plan,
+            confirmation: confirmation.collect(),
+            jobs: vec![Job {
+                ceiling_mm: None,
+                base: base.name.clone(),
+                candidates: PullSearch { costs, form },
+            }],
+            name,
+            compared,
+        })
+    }
+
+    /// The gait of the best point under its name.
+    fn found(
+        &self,
+        searched: &PullSearch,
+        run: &SeededRun,
+        best: &Candidate,
+    ) -> Result<Gait, SearchError> {
+        let terms = searched.costs.terms();
+        let objective = match terms.aim {
+            PullAim::Published(_) => "the published cost",
+            PullAim::Graded(objective) => objective.name(),
+        };
+        Ok(Gait {
+            name: self.name.clone(),
+            description: format!(
+                "found by {}, seed {}: least {objective}, source {}",
+                self.plan.head().solver.name(),
+                run.seed,
+                terms.source.name()
+            ),
+            ..searched.gait(&best.point)?
+        })
+    }
+
+    /// The record; what others cost stands beside the found gait, where the objective has a cost.
+    fn outcome(
+        &self,
+        searched: &PullSearch,
+        search: &Search,
+        seed: u64,
+        end: SearchEnd,
+        gait: &Gait,
+        confirmation: &Confirmation,
+    ) -> Result<Outcome, SearchError> {
+        let cost = searched.cost(gait, Depth::Everything);
+        let price = searched.costs.record(&cost);
+        let runs = search.runs().iter().map(|run| {
+            let price = match run.best() {
+                Some(best) => priced(searched, &searched.gait(&best.point)?),
+                None => None,
+            };
+            Ok(RunOutcome {
+                seed: run.seed,
+                price,
+                evaluations: run.evaluations(),
+                generations: run.last().map_or(0, |last| last.generation),
+                restarts: run.last().map_or(0, |last| last.restarts),
+            })
+        });
+        let compared = self.compared.iter().filter_map(|other| {
+            let theirs = priced(searched, other)?;
+            let torques = price.torque.zip(theirs.torque);
+            Some(Compared {
+                gait: other.name.clone(),
+                torque_ratio: torques.map(|(ours, theirs)| ours / theirs),
+                price: theirs,
+            })
+        });
+        Ok(Outcome {
+            gait: gait.name.clone(),
+            curves: CurvesInfo::of(gait),
+            unit: searched.costs.terms().aim.objective().unit(),
+            seed,
+            evaluations: search.evaluations(),
+            complete: end == SearchEnd::Finished,
+            variables: searched.bounds().len(),
+            runs: runs.collect::<Result<_, SearchError>>()?,
+            compared: compared.collect(),
+            verdicts: confirmation.verdicts.clone(),
+            refused: confirmation.refused.clone(),
+            price,
+        })
+    }
+
+    /// The gait, the tables, the figures.
+    fn files(
+        &self,
+        searched: &PullSearch,
+        search: &Search,
+        gaits: &[Gait],
+        outcome: &Outcome,
+        confirmation: &Confirmation,
+    ) -> Result<Artefacts, SearchError> {
+        let mut artefacts = Artefacts::new();
+        let terms = searched.costs.terms();
+        if let Some(gait) = gaits.last() {
+            let text = gait_file::write(gait, &self.header(searched, gait, outcome));
+            artefacts.insert("gait.toml".into(), text.into_bytes());
+        }
+        artefacts.insert("history.csv".into(), gait_search::history_csv(search)?);
+        artefacts.insert(
+            "confirmation.csv".into(),
+            gait_search::confirmation_csv(confirmation)?,
+        );
+        let scores = match terms.aim {
+            PullAim::Published(_) => Scores::Published,
+            PullAim::Graded(_) => Scores::Graded,
+        };
+        let objective = terms.aim.objective();
+        let history = SearchRecord::of(search, &objective, scores);
+        let history = history.map(|history| figures::generations(&history));
+        let rows = ConfirmedRecord::of(confirmation);
+        let drawn = [
+            history.transpose()?.flatten(),
+            figures::confirmation(&rows, objective.name())?,
+        ];
+        draw(&mut artefacts, drawn.into_iter().flatten())?;
+        // The planned chains, the found gait's last. One that cannot be planned was refused by the
+        // confirmation too, which says why.
+        let chain = |gait| pulls::chain(searched.costs.world(), gait, terms.duration).ok();
+        let chains: Vec<_> = gaits.iter().filter_map(chain).collect();
+        artefacts.insert("chains.csv".into(), tables::chains(&chains)?);
+        Ok(artefacts)
+    }
+
+    /// How the gait was found and what it does, for whoever reads its file.
+    fn header(&self, searched: &PullSearch, gait: &Gait, outcome: &Outcome) -> String {
+        let head = self.plan.head();
+        let mut lines = vec![format!(
+            "Found by prone {} ({}), seed {}, {} evaluations in {} runs, on robot {}.",
+            head.version,
+            head.commit,
+            outcome.seed,
+            outcome.evaluations,
+            outcome.runs.len(),
+            searched.costs.world().robot().name
+        )];
+        if let Some(cost) = outcome.price.cost {
+            lines.push(format!(
+                "Cost {cost:.4} ({}), violations {:.4}.",
+                outcome.unit, outcome.price.violations
+            ));
+        }
+        lines.push(
+            "Simulated from its own first pose at several durations, cost over another gait's:"
+                .into(),
+        );
+        lines.extend(outcome.verdicts.iter().map(Verdict::sentence));
+        let refused = outcome.refused.iter().map(|refused| {
+            let Refusal {
+                regime,
+                gait,
+                reason,
+            } = refused;
+            format!("{regime}: {gait} cannot be simulated: {reason}.")
+        });
+        lines.extend(refused);
+        lines.extend(clamps(searched, gait));
+        lines.join("\n")
+    }
+}
+
+impl SearchRun for PullRun {
+    type Candidates = PullSearch;
+    type Outcome = Outcome;
+
+    fn plan(&self) -> &SearchPlan {
+        &self.plan
+    }
+
+    fn jobs(&self) -> &[Job<PullSearch>] {
+        &self.jobs
+    }
+
+    fn conclude(
+        &self,
+        searches: &[Search],
+        end: SearchEnd,
+        watch: &dyn Watch,
+    ) -> Result<(Outcome, Artefacts), SearchError> {
+        let nothing = SearchError::Nothing {
+            budget: searches.iter().map(Search::allowance).sum(),
+        };
+        let (Some(job), Some(search)) = (self.jobs.first(), searches.first()) else {
+            return Err(nothing);
+        };
+        let searched = &job.candidates;
+        let (run, best) = search.best().ok_or(nothing)?;
+        let gait = self.found(searched, run, best)?;
+        let mut gaits = self.compared.clone();
+        gaits.push(gait.clone());
+        let objective = searched.costs.terms().aim.objective();
+        let confirmation = confirm::pulls(&gaits, &self.confirmation, &objective, watch)?;
+        let outcome = self.outcome(searched, search, run.seed, end, &gait, &confirmation)?;
+        let artefacts = self.files(searched, search, &gaits, &outcome, &confirmation)?;
+        Ok((outcome, artefacts))
+    }
+}
+
+/// What a gait costs, `None` where the objective has no cost for it.
+fn priced(searched: &PullSearch, gait: &Gait) -> Option<Priced> {
+    let cost = searched.cost(gait, Depth::Everything);
+    let no_cost = matches!(cost.refusal, Some(NoCost::NotCubic { .. }));
+    (!no_cost).then(|| searched.costs.record(&cost))
+}
+
+/// Which joints the gait asks past their stops, where it asks any.
+fn clamps(searched: &PullSearch, gait: &Gait) -> Option<String> {
+    let robot = searched.costs.world().robot();
+    // The manufacturer's: a regime may have moved them.
+    let stops = robot.stops();
+    let duration = searched.costs.terms().duration;
+    let trajectory = CheckedTrajectory::plan(robot, &stops, gait, duration, INTERVALS).ok()?;
+    let clamped = trajectory.clamps().iter().map(|clamp| {
+        let by = clamp.largest.abs().to_degrees();
+        format!("{} by up to {by:.1}°", robot.joints[clamp.joint.0].name)
+    });
+    let clamped: Vec<_> = clamped.collect();
+    (!clamped.is_empty()).then(|| format!("Clamped at its limit: {}.", clamped.join(", ")))
+}
+
+/// What pulls cost, as a plan says it.
+fn cost_plan(costs: &PullCosts, robot: &LoadedRobot) -> PullCostPlan {
+    let terms = costs.terms();
+    let graded = |weights| GradedPlan {
+        weights,
+        per: terms.share.name().to_owned(),
+        duration_s: terms.duration.seconds(),
+        rate_deg_per_phase: Some(terms.rules.rate.to_degrees()).filter(|rate| rate.is_finite()),
+        clearance: match terms.rules.clearance {
+            Clearance::Free => ClearancePlan::None,
+            Clearance::Hip(height) => ClearancePlan::HipMm(height * 1e3),
+            Clearance::Body(height) => ClearancePlan::BodyMm(height * 1e3),
+        },
+        limits: if terms.rules.stops.is_some() {
+            "base"
+        } else {
+            "none"
+        }
+        .to_owned(),
+        body_share_of: terms.body_share_of.clone(),
+        body_share_percent: terms
+            .body_share_of
+            .as_ref()
+            .map(|_| terms.body_share * 100.0),
+        regime: costs.world().regime().name.to_owned(),
+        start: "the gait's own first pose, settled".to_owned(),
+    };
+    PullCostPlan {
+        aim: match terms.aim {
+            PullAim::Published(rules) => PullAimPlan::Published {
+                hip_threshold_mm: rules.hip_threshold * 1e3,
+                limit_tolerance_rad: rules.limit_tolerance,
+            },
+            PullAim::Graded(Objective::Torque { weights }) => {
+                PullAimPlan::Torque(graded(Some(weights)))
+            }
+            PullAim::Graded(Objective::Peak) => PullAimPlan::Peak(graded(None)),
+            PullAim::Graded(Objective::Heat) => PullAimPlan::Heat(graded(None)),
+        },
+        source: match &terms.source {
+            Source::Map { file, sha256, .. } => SourcePlan::Map {
+                file: file.clone(),
+                sha256: sha256.clone(),
+            },
+            other => SourcePlan::Named(other.name().to_owned()),
+        },
+        from: terms.base.name.clone(),
+        mapping: terms.base.mapping.name().to_owned(),
+        arm: terms.base.arm.name().to_owned(),
+        robot: RobotInfo::of(robot.robot(), robot.files()),
+    }
+}

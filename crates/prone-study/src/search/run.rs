@@ -1,0 +1,241 @@
+//! Carrying out a search, whatever is searched: under a budget of evaluations and of time, with
+//! checkpoints, until it ends or is stopped; then the confirmation and the result.
+
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+use prone_optim::Threads;
+use prone_record::output::Artefacts;
+use prone_record::search::{Search, SearchEnd};
+use prone_record::search_plan::SearchPlan;
+use prone_report::figure_list::FigureList;
+use prone_report::figures::{Figure, FigureError, PNG_SCALE};
+use serde::Serialize;
+use serde_json::json;
+
+use super::candidates::{Candidates, PointError, Searched};
+use super::confirm::ConfirmError;
+use crate::watch::{Progress, Watch};
+
+/// One box of gaits to search.
+#[derive(Debug)]
+pub struct Job<C> {
+    /// The ceiling, mm, where there is one.
+    pub ceiling_mm: Option<f64>,
+    /// Name of the gait that is searched about.
+    pub base: String,
+    /// What is searched.
+    pub candidates: C,
+}
+
+/// A search with all that it needs.
+pub trait SearchRun: Send + Sync + 'static {
+    /// What is searched.
+    type Candidates: Candidates;
+    /// What `result.json` says.
+    type Outcome: Serialize;
+
+    /// What was asked for: `run.json`.
+    fn plan(&self) -> &SearchPlan;
+
+    /// Boxes, searched one after the other.
+    fn jobs(&self) -> &[Job<Self::Candidates>];
+
+    /// Confirms what was found, and makes the files of the result folder; one search a job.
+    ///
+    /// # Errors
+    /// [`SearchError`].
+    fn conclude(
+        &self,
+        searches: &[Search],
+        end: SearchEnd,
+        watch: &dyn Watch,
+    ) -> Result<(Self::Outcome, Artefacts), SearchError>;
+}
+
+/// Why a search has no result.
+#[derive(Debug, thiserror::Error)]
+pub enum SearchError {
+    /// Nothing was evaluated.
+    #[error("the budget of {budget} evaluations is too small for one generation")]
+    Nothing {
+        /// The budget of all runs.
+        budget: u64,
+    },
+    /// The user asked to stop; the searches are as they were after the last generation.
+    #[error("stopped before the end")]
+    Stopped,
+    /// A found point makes no gait.
+    #[error(transparent)]
+    Point(#[from] PointError),
+    /// What was found has no figures of a confirmation.
+    #[error(transparent)]
+    Confirm(ConfirmError),
+    /// A table cannot be written.
+    #[error(transparent)]
+    Table(#[from] csv::Error),
+    /// A record cannot be written.
+    #[error(transparent)]
+    Json(#[from] serde_json::Error),
+    /// A figure cannot be drawn.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
+}
+
+impl From<ConfirmError> for SearchError {
+    fn from(error: ConfirmError) -> Self {
+        match error {
+            ConfirmError::Stopped => Self::Stopped,
+            other => Self::Confirm(other),
+        }
+    }
+}
+
+/// Why a run ended without a result.
+#[derive(Debug)]
+pub enum RunError<E> {
+    /// Its checkpoint cannot be written.
+    Checkpoint(E),
+    /// The search itself.
+    Search(SearchError),
+}
+
+/// A search that is done.
+#[derive(Debug)]
+pub struct Done<O> {
+    /// What `result.json` says.
+    pub outcome: O,
+    /// All files of the result folder.
+    pub artefacts: Artefacts,
+    /// Whether every run came to its own end, or the time was over.
+    pub end: SearchEnd,
+}
+
+/// When a checkpoint is due.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Due {
+    /// If the last one is old.
+    NowAndThen,
+    /// In any case.
+    Now,
+}
+
+/// Writes checkpoints: all searches of a run, one a job.
+pub type Keep<'k, E> = dyn FnMut(&[&Search], Due) -> Result<(), E> + 'k;
+
+/// Searches that have not begun, one a job.
+pub fn begin<R: SearchRun>(run: &R) -> Vec<Search> {
+    let fresh = |_: &_| run.plan().head().new_search();
+    run.jobs().iter().map(fresh).collect()
+}
+
+/// Goes on with searches on the current rayon pool, from wherever they are, to the result.
+///
+/// # Errors
+/// [`RunError`]; a search that was stopped has been given to `keep`.
+pub fn run<R: SearchRun, E>(
+    run: &R,
+    searches: &mut [Search],
+    time: Option<Duration>,
+    watch: &dyn Watch,
+    keep: &mut Keep<'_, E>,
+) -> Result<Done<R::Outcome>, RunError<E>> {
+    let started = Instant::now();
+    let evaluations = |searches: &[Search]| searches.iter().map(Search::evaluations).sum::<u64>();
+    let before = evaluations(searches);
+    let mut end = SearchEnd::Finished;
+    for (index, job) in run.jobs().iter().enumerate().take(searches.len()) {
+        let out_of_time = || time.is_some_and(|time| started.elapsed() >= time);
+        end = proceed(&job.candidates, searches, index, watch, &out_of_time, keep)
+            .map_err(RunError::Checkpoint)?;
+        if watch.stop() {
+            return Err(RunError::Search(SearchError::Stopped));
+        }
+        if end == SearchEnd::Interrupted {
+            break;
+        }
+    }
+    let searched = started.elapsed();
+    let concluded = run.conclude(searches, end, watch);
+    let (outcome, mut artefacts) = concluded.map_err(RunError::Search)?;
+    if watch.stop() {
+        return Err(RunError::Search(SearchError::Stopped));
+    }
+    let timing = json!({
+        "wall_s": started.elapsed().as_secs_f64(),
+        "search_s": searched.as_secs_f64(),
+        "evaluations": evaluations(searches) - before,
+        "threads": rayon::current_num_threads(),
+    });
+    let mut files = || -> Result<(), SearchError> {
+        artefacts.insert("timing.json".into(), pretty(&timing)?);
+        let plan = serde_json::to_value(run.plan())?;
+        artefacts.insert("run.json".into(), pretty(&plan)?);
+        artefacts.insert("result.json".into(), pretty(&outcome)?);
+        Ok(())
+    };
+    files().map_err(RunError::Search)?;
+    Ok(Done {
+        outcome,
+        artefacts,
+        end,
+    })
+}
+
+/// Goes on with one search, and leaves a checkpoint of all.
+fn proceed<C: Candidates, E>(
+    candidates: &C,
+    searches: &mut [Search],
+    index: usize,
+    watch: &dyn Watch,
+    out_of_time: &dyn Fn() -> bool,
+    keep: &mut Keep<'_, E>,
+) -> Result<SearchEnd, E> {
+    let (before, rest) = searches.split_at_mut(index);
+    let Some((search, after)) = rest.split_first_mut() else {
+        return Ok(SearchEnd::Finished);
+    };
+    watch.progress(&Progress::Searching(search));
+    let mut kept = Ok(());
+    let end = search.proceed(&Threads(Searched(candidates)), |search| {
+        watch.progress(&Progress::Searching(search));
+        // A budget too small for one generation leaves nothing to keep.
+        if search.best().is_some() {
+            kept = keep(&all(before, search, after), Due::NowAndThen);
+        }
+        if kept.is_err() || out_of_time() || watch.stop() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    });
+    kept?;
+    if search.best().is_some() || watch.stop() {
+        // The confirmation may still be stopped.
+        keep(&all(before, search, after), Due::Now)?;
+    }
+    Ok(end)
+}
+
+fn all<'a>(before: &'a [Search], search: &'a Search, after: &'a [Search]) -> Vec<&'a Search> {
+    before.iter().chain([search]).chain(after).collect()
+}
+
+/// A record as a file.
+pub(super) fn pretty(value: &impl Serialize) -> Result<Vec<u8>, SearchError> {
+    Ok(serde_json::to_vec_pretty(value)?)
+}
+
+/// Figures and the list of them.
+pub(super) fn draw(
+    artefacts: &mut Artefacts,
+    figures: impl IntoIterator<Item = Figure>,
+) -> Result<(), SearchError> {
+    let mut list = FigureList::default();
+    for figure in figures {
+        let png = figure.png(PNG_SCALE)?;
+        list.drawing(artefacts, "figures/", figure, png);
+    }
+    list.finish(artefacts)?;
+    Ok(())
+}
