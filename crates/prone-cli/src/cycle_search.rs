@@ -33,7 +33,7 @@ pub(crate) fn frontier(args: &FrontierArgs) -> Result<(), Failure> {
             return Err(Failure::Input(anyhow!("--ceilings-mm has {mm} twice")));
         }
         if args.margin_mm >= mm {
-            return Err(passage::no_room(mm, args.margin_mm));
+            return Err(passage::no_room("--ceilings-mm", mm, args.margin_mm));
         }
         refuse_too_low(&robot, "--ceilings-mm", mm, (mm - args.margin_mm) * 1e-3)?;
     }

@@ -50,7 +50,7 @@ pub(crate) fn run(args: &UnderArgs) -> Result<(), Failure> {
     let settings = settings::for_advance(&robot).map_err(Failure::input)?;
     let (ceiling, margin) = (args.ceiling_mm * 1e-3, args.margin_mm * 1e-3);
     if margin >= ceiling {
-        return Err(no_room(args.ceiling_mm, args.margin_mm));
+        return Err(no_room("--ceiling-mm", args.ceiling_mm, args.margin_mm));
     }
     interrupt::listen()?;
     let tried = sources.iter().map(|(cycle, origin)| (cycle, *origin));
@@ -100,9 +100,9 @@ pub(crate) fn run(args: &UnderArgs) -> Result<(), Failure> {
 }
 
 /// A margin that is as large as its ceiling.
-pub(crate) fn no_room(ceiling_mm: f64, margin_mm: f64) -> Failure {
+pub(crate) fn no_room(option: &str, ceiling_mm: f64, margin_mm: f64) -> Failure {
     Failure::Input(anyhow!(
-        "a margin of {margin_mm} mm leaves nothing of a ceiling of {ceiling_mm} mm"
+        "--margin-mm {margin_mm} must be smaller than {option} {ceiling_mm}"
     ))
 }
 
