@@ -64,11 +64,11 @@ fn say(out: &Path, said: &str) -> Result<(), Failure> {
 fn of_tables(args: &ExportArgs, record: &Recorded) -> Result<(Vec<u8>, String), Failure> {
     let held = format!("{}, {}", span(record), joints(record));
     match args.format {
-        Format::Csv => Ok((table::of(record).map_err(Failure::work)?, held)),
-        Format::Npz => Ok((numpy::of(record).map_err(Failure::work)?, held)),
+        Format::Csv => Ok((table::csv(record).map_err(Failure::work)?, held)),
+        Format::Npz => Ok((numpy::archive(record).map_err(Failure::work)?, held)),
         Format::Mcap => {
             let said = format!("{held}, {} contacts", record.contacts.len());
-            Ok((ros_log::of(record).map_err(Failure::work)?, said))
+            Ok((ros_log::log(record).map_err(Failure::work)?, said))
         }
         _ => unreachable!("the other formats are made elsewhere"),
     }
@@ -109,7 +109,7 @@ fn cycle(args: &ExportArgs, run: &RecordedRun) -> Result<(Vec<u8>, String), Fail
     } else {
         key_frames::TICK
     };
-    let frames = key_frames::of(&checked, tick).map_err(Failure::input)?;
+    let frames = key_frames::from_cycle(&checked, tick).map_err(Failure::input)?;
     let bytes = if is_xar {
         timeline::xar(robot, checked.name(), &frames).into_bytes()
     } else {

@@ -54,7 +54,7 @@ impl<'r> StaticTorques<'r> {
     ) -> Result<Self, SymmetryError> {
         Ok(Self {
             robot,
-            half: HalfRobot::of(robot)?,
+            half: HalfRobot::from_robot(robot)?,
             mapping,
             stops: stops.to_vec(),
             stance,
