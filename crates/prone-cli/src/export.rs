@@ -68,16 +68,16 @@ fn of_tables(args: &ExportArgs, record: &Recorded) -> Result<(Vec<u8>, String), 
     let held = format!("{}, {}", span(record), joints(record));
     match args.format {
         Format::Csv => {
-            let bytes = table::of(record).map_err(Failure::work)?;
+            let bytes = table::csv(record).map_err(Failure::work)?;
             Ok((bytes, said(held)))
         }
         Format::Npz => {
-            let bytes = numpy::of(record).map_err(Failure::work)?;
+            let bytes = numpy::archive(record).map_err(Failure::work)?;
             Ok((bytes, said(held)))
         }
         Format::Mcap => {
             let held = format!("{held}, {} contacts", record.contacts.len());
-            Ok((ros_log::of(record).map_err(Failure::work)?, said(held)))
+            Ok((ros_log::log(record).map_err(Failure::work)?, said(held)))
         }
         _ => unreachable!("the other formats are made elsewhere"),
     }
@@ -128,7 +128,7 @@ fn cycle(args: &ExportArgs, run: &RecordInfo) -> Result<(Vec<u8>, String), Failu
     } else {
         key_frames::TICK
     };
-    let frames = key_frames::of(&checked, tick).map_err(Failure::input)?;
+    let frames = key_frames::from_cycle(&checked, tick).map_err(Failure::input)?;
     let bytes = if is_xar {
         timeline::xar(robot, checked.name(), &frames).into_bytes()
     } else {

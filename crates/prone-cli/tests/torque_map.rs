@@ -213,7 +213,8 @@ fn a_journal_of_other_options_is_kept_until_it_is_discarded() {
     let refused = build("statics", &out, &[]).output().unwrap();
     let message = String::from_utf8(refused.stderr).unwrap();
     assert_eq!(refused.status.code(), Some(2), "{message}");
-    let expected = "source was \"simulation\", and is \"statics\" now; --restart discards it";
+    let expected =
+        "regime was \"table\", and is \"none, the study's stops hold\" now; --restart discards it";
     assert!(message.contains(expected), "{message}");
     let (_, log) = succeeded(build("statics", &out, &["--restart"]).output().unwrap());
     assert!(log.starts_with("done in "), "nothing is taken over: {log}");

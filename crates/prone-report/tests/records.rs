@@ -80,9 +80,9 @@ fn a_whole_record_is_exported_with_its_robot() {
     let home = folder(made::whole);
     let record = Recorded::read(home.path()).unwrap();
     let joints = record.joints.len();
-    assert_eq!(lines(table::of(&record).unwrap()).len(), 1 + 3 * joints);
-    assert!(numpy::of(&record).unwrap().starts_with(b"PK"));
-    let counts = messages(&ros_log::of(&record).unwrap());
+    assert_eq!(lines(table::csv(&record).unwrap()).len(), 1 + 3 * joints);
+    assert!(numpy::archive(&record).unwrap().starts_with(b"PK"));
+    let counts = messages(&ros_log::log(&record).unwrap());
     let topics: Vec<&str> = counts.keys().map(String::as_str).collect();
     let contact = format!("/contacts/{}/floor", record.bodies[1].name);
     assert_eq!(
@@ -104,7 +104,7 @@ fn a_whole_record_is_exported_with_its_robot() {
     let cycle = cycle_file::parse("low-175.toml", &info.gait.text.unwrap()).unwrap();
     let scale = TimeScale::new(info.options.time_scale().unwrap()).unwrap();
     let checked = CheckedCycle::plan(robot, &robot.stops(), &cycle, 0.0, scale).unwrap();
-    let frames = key_frames::of(&checked, key_frames::TICK).unwrap();
+    let frames = key_frames::from_cycle(&checked, key_frames::TICK).unwrap();
     assert!(
         key_frames::json(robot, &checked, &frames)
             .unwrap()
@@ -169,20 +169,20 @@ fn a_sparse_record_is_exported_as_far_as_it_goes() {
     let record = Recorded::read(home.path()).unwrap();
     let joints = record.joints.len();
     assert_eq!(joints, made::nao().robot().joints.len());
-    let table = lines(table::of(&record).unwrap());
+    let table = lines(table::csv(&record).unwrap());
     assert_eq!(table.len(), 1 + 3 * joints);
     // No command; 0.021 - 0.013 rad in as many seconds; a torque.
     let joint = &record.joints[0];
     assert_eq!(table[1], format!("0.0130,{joint},,0.013000,1.0000,0.50000"));
     let unseen = record.joints.last().unwrap();
     assert_eq!(table[joints], format!("0.0130,{unseen},,,,"));
-    let archive = numpy::of(&record).unwrap();
+    let archive = numpy::archive(&record).unwrap();
     assert!(
         archive
             .windows(8)
             .any(|bytes| bytes == f64::NAN.to_le_bytes())
     );
-    let counts = messages(&ros_log::of(&record).unwrap());
+    let counts = messages(&ros_log::log(&record).unwrap());
     let expected = [("/joint_states".to_owned(), 3), ("/tf".to_owned(), 3)];
     assert_eq!(counts, BTreeMap::from(expected));
 }

@@ -249,7 +249,7 @@ pub fn proceed(
                 Keep::Rows => None,
                 Keep::Shown { .. } => Some(Shown {
                     s: sample.s,
-                    tops: Tops::of(robot, &parts, &poses),
+                    tops: Tops::from_poses(robot, &parts, &poses),
                     forces: simulation.contact_forces(),
                 }),
             },

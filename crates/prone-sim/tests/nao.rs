@@ -74,7 +74,7 @@ fn reference_derived_chain() {
     );
     assert_near(exact.shoulder_roll().to_degrees(), 24.07, 5e-3, "roll, °");
 
-    let left = SideGeometry::of(robot, &robot.chain.left).unwrap();
+    let left = SideGeometry::from_layout(robot, &robot.chain.left).unwrap();
     // Half of the last printed digit of the roll, times about 1 mm per degree.
     for (roll_deg, projected_mm, tolerance) in [
         (22.0, 91.74, 6e-3),

@@ -125,7 +125,7 @@ fn beside_table(table: &TorqueMap, source: &impl TorqueSource, stride: usize) ->
 fn virtual_work_matches_force_balance() {
     let loaded = nao();
     let robot = loaded.robot();
-    let half = HalfRobot::of(robot).unwrap();
+    let half = HalfRobot::from_robot(robot).unwrap();
     let stops = robot.study_stops();
     for (arm, supports) in [
         (ArmMode::Fixed, SupportRule::AnyShape),

@@ -138,7 +138,7 @@ impl Attitude {
     }
 
     /// The attitude of a root whose pose is known.
-    pub fn of(ground_from_root: &Transform<Ground, Root>) -> Self {
+    pub fn from_pose(ground_from_root: &Transform<Ground, Root>) -> Self {
         Self {
             up_in_root: ground_from_root.rotation().inverse() * DVec3::Z,
         }

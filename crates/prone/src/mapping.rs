@@ -151,7 +151,9 @@ impl Mapping {
     /// [`MappingError`] where the robot lacks what the variant or the arm mode needs.
     pub fn new(robot: &Robot, variant: MappingVariant, arm: ArmMode) -> Result<Self, MappingError> {
         let layout = &robot.chain;
-        let [left, right] = layout.sides().map(|side| SideGeometry::of(robot, side));
+        let [left, right] = layout
+            .sides()
+            .map(|side| SideGeometry::from_layout(robot, side));
         let [left, right] = [left?, right?];
         let published = match variant {
             MappingVariant::Exact => None,

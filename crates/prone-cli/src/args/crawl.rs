@@ -63,7 +63,7 @@ pub(crate) struct CrawlRunArgs {
         allow_negative_numbers = true
     )]
     pub(crate) ceiling_mm: Option<f64>,
-    /// Its length, m
+    /// Length of the plate of --ceiling-mm, m
     #[arg(
         long,
         value_name = "L",
@@ -97,10 +97,10 @@ pub(crate) struct CrawlRunArgs {
         allow_negative_numbers = true
     )]
     pub(crate) friction_right: Option<f64>,
-    /// Each joint of arms and legs is off by an angle of at most this, degrees, drawn evenly
+    /// Largest calibration error of the joints of arms and legs, degrees; each joint has its own, drawn uniformly within ± this
     #[arg(long, value_name = "D", requires = "seed", value_parser = offset, allow_negative_numbers = true)]
     pub(crate) joint_offset_deg: Option<f64>,
-    /// Seed of these angles, and of the inertial unit's noise
+    /// Seed of the calibration errors of --joint-offset-deg and of the inertial unit's noise
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub(crate) seed: Option<u64>,
     /// Slope of the floor, uphill ahead, degrees

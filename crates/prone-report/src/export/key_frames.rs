@@ -39,7 +39,7 @@ pub struct KeyFrame {
 ///
 /// # Errors
 /// [`CycleError`] where the cycle's own recovery is too fast.
-pub fn of(checked: &CheckedCycle, tick_s: f64) -> Result<KeyFrames, CycleError> {
+pub fn from_cycle(checked: &CheckedCycle, tick_s: f64) -> Result<KeyFrames, CycleError> {
     let course = Course {
         checked,
         recovery: checked.recovery_after(checked)?,

@@ -30,7 +30,7 @@ pub enum ArchiveError {
 ///
 /// # Errors
 /// [`ArchiveError`], which writing to memory does not produce.
-pub fn of(record: &Recorded) -> Result<Vec<u8>, ArchiveError> {
+pub fn archive(record: &Recorded) -> Result<Vec<u8>, ArchiveError> {
     let (rows, contacts) = (&record.rows, &record.contacts);
     let joints = record.joints.len();
     let per_joint = |values: &dyn Fn(&RecordedRow) -> &[f64]| {

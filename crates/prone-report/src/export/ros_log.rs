@@ -65,7 +65,7 @@ type Wrench = (DVec3, DVec3);
 ///
 /// # Errors
 /// [`McapError`], which writing to memory does not produce.
-pub fn of(record: &Recorded) -> Result<Vec<u8>, McapError> {
+pub fn log(record: &Recorded) -> Result<Vec<u8>, McapError> {
     let options = WriteOptions::new()
         .profile("ros2")
         .library(concat!("prone ", env!("CARGO_PKG_VERSION")))

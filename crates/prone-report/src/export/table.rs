@@ -18,7 +18,7 @@ const COLUMNS: [&str; 6] = [
 ///
 /// # Errors
 /// [`csv::Error`], which writing to memory does not produce.
-pub fn of(record: &Recorded) -> Result<Vec<u8>, csv::Error> {
+pub fn csv(record: &Recorded) -> Result<Vec<u8>, csv::Error> {
     let mut table = csv::Writer::from_writer(Vec::new());
     table.write_record(COLUMNS)?;
     for (row, speeds) in record.rows.iter().zip(record.joint_speeds()) {

@@ -270,7 +270,7 @@ impl Meter {
             return;
         };
         let poses = simulation.body_poses();
-        let tops = Tops::of(robot, &self.parts, &poses);
+        let tops = Tops::from_poses(robot, &self.parts, &poses);
         cycle.tops.raise(&tops);
         if self.detail == Detail::Sums {
             return;

@@ -91,7 +91,7 @@ impl<'r> Job<'r> {
     ) -> Result<Self, JobError> {
         let mapping = Mapping::new(robot.robot(), VARIANT, ARM)?;
         if source == Source::Statics {
-            HalfRobot::of(robot.robot())?;
+            HalfRobot::from_robot(robot.robot())?;
         }
         Ok(Self {
             robot,

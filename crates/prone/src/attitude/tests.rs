@@ -21,7 +21,7 @@ proptest! {
         let turn = DQuat::from_rotation_z(heading)
             * DQuat::from_rotation_x(roll)
             * DQuat::from_rotation_y(pitch);
-        let attitude = Attitude::of(&Transform::new(turn, DVec3::ZERO));
+        let attitude = Attitude::from_pose(&Transform::new(turn, DVec3::ZERO));
         prop_assert!((attitude.pitch().unwrap() - pitch).abs() < 1e-12);
         prop_assert!((attitude.roll() - roll).abs() < 1e-12);
     }
@@ -34,7 +34,7 @@ proptest! {
         let turn = DQuat::from_rotation_y(-slope) * DQuat::from_rotation_y(planned);
         let uphill = DQuat::from_rotation_y(-slope) * DVec3::X;
         prop_assert!(uphill.z * slope >= 0.0, "a positive slope rises in front");
-        let attitude = Attitude::of(&Transform::new(turn, DVec3::ZERO));
+        let attitude = Attitude::from_pose(&Transform::new(turn, DVec3::ZERO));
         prop_assert!((attitude.slope(planned).unwrap() - slope).abs() < 1e-12);
     }
 

@@ -78,7 +78,7 @@ impl SideGeometry {
     ///
     /// # Errors
     /// [`GeometryError`] where the limbs form no sagittal chain.
-    pub fn of(robot: &Robot, side: &SideLayout) -> Result<Self, GeometryError> {
+    pub fn from_layout(robot: &Robot, side: &SideLayout) -> Result<Self, GeometryError> {
         let poses = robot.zero_pose();
         let centre = |id: JointId| {
             let joint = &robot.joints[id.0];

@@ -63,7 +63,7 @@ impl Tops {
     pub const NONE: Self = Self([f64::NEG_INFINITY; 5]);
 
     /// Of a robot in its poses; `parts` are those of its shapes.
-    pub fn of(robot: &Robot, parts: &[BodyPart], poses: &BodyPoses<Ground>) -> Self {
+    pub fn from_poses(robot: &Robot, parts: &[BodyPart], poses: &BodyPoses<Ground>) -> Self {
         let mut tops = Self::NONE;
         for (shape, part) in robot.shapes.iter().zip(parts) {
             let top = shape.reach_along(poses.of(shape.body), DVec3::Z);

@@ -107,7 +107,7 @@ impl HalfRobot {
     ///
     /// # Errors
     /// [`SymmetryError`] where a body has no mirror image.
-    pub fn of(robot: &Robot) -> Result<Self, SymmetryError> {
+    pub fn from_robot(robot: &Robot) -> Result<Self, SymmetryError> {
         let zero = robot.zero_pose();
         let mut half = Self {
             bodies: Vec::new(),

@@ -55,7 +55,7 @@ impl<R: Borrow<Robot>> StaticTorques<R> {
         stance: Stance,
     ) -> Result<Self, SymmetryError> {
         Ok(Self {
-            half: HalfRobot::of(robot.borrow())?,
+            half: HalfRobot::from_robot(robot.borrow())?,
             robot,
             mapping,
             stops: stops.to_vec(),

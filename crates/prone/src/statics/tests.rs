@@ -65,7 +65,13 @@ fn pose(robot: &Robot, arm: ArmMode, knee: f64, hip: f64, upper_arm: f64) -> Joi
 }
 
 fn at_rest(robot: &Robot, angles: &JointAngles, stance: Stance) -> Rest {
-    rest(robot, &HalfRobot::of(robot).unwrap(), angles, stance).unwrap()
+    rest(
+        robot,
+        &HalfRobot::from_robot(robot).unwrap(),
+        angles,
+        stance,
+    )
+    .unwrap()
 }
 
 const RULES: [SupportRule; 2] = [SupportRule::AnyShape, SupportRule::ElbowNotHand];
@@ -79,7 +85,7 @@ proptest! {
         squeeze in -10.0..10.0_f64, arm in prop::sample::select(&ARMS[..]),
     ) {
         let robot = shaped();
-        let half = HalfRobot::of(&robot).unwrap();
+        let half = HalfRobot::from_robot(&robot).unwrap();
         let angles = pose(&robot, arm, knee, hip, upper_arm);
         // A level forearm has a choice of supports that the differences would jump between.
         let stance = Stance { supports: SupportRule::ElbowNotHand, squeeze };
@@ -134,7 +140,7 @@ proptest! {
         squeeze in -10.0..10.0_f64,
     ) {
         let robot = shaped();
-        let half = HalfRobot::of(&robot).unwrap();
+        let half = HalfRobot::from_robot(&robot).unwrap();
         let angles = pose(&robot, ArmMode::Fixed, knee, hip, upper_arm);
         let pose = half.pose(&robot, &angles).unwrap();
         let centre = half.centre_of_mass(&pose);
@@ -236,7 +242,7 @@ fn a_round_body_rocks_on_one_support() {
     robot.shapes.retain(|shape| shape.name == "trunk");
     robot.shapes[0].solid = Solid::Sphere { radius: 1.0 };
     let angles = JointAngles::zero(&robot);
-    let half = HalfRobot::of(&robot).unwrap();
+    let half = HalfRobot::from_robot(&robot).unwrap();
     let stance = Stance {
         supports: SupportRule::AnyShape,
         squeeze: 5.0,
@@ -279,7 +285,7 @@ fn squeeze_is_what_the_floor_adds_and_nothing_else() {
 #[test]
 fn lopsided_poses_are_refused_and_say_where() {
     let robot = shaped();
-    let half = HalfRobot::of(&robot).unwrap();
+    let half = HalfRobot::from_robot(&robot).unwrap();
     let stance = Stance::unsqueezed(SupportRule::AnyShape);
     let mut angles = pose(&robot, ArmMode::Fixed, 0.3, 0.1, -1.0);
     angles[robot.chain.right.knee] += 0.5 * ASYMMETRY_TOLERANCE;
@@ -302,7 +308,7 @@ fn robots_that_do_not_mirror_or_touch_are_refused() {
     let mut robot = shaped();
     let angles = JointAngles::zero(&robot);
     robot.shapes.clear();
-    let half = HalfRobot::of(&robot).unwrap();
+    let half = HalfRobot::from_robot(&robot).unwrap();
     let stance = Stance::unsqueezed(SupportRule::AnyShape);
     assert_eq!(
         rest(&robot, &half, &angles, stance),
@@ -310,7 +316,7 @@ fn robots_that_do_not_mirror_or_touch_are_refused() {
     );
     let thigh = robot.joints[robot.chain.left.hip.0].body;
     robot.bodies[thigh.0].mass += 0.1;
-    let error = HalfRobot::of(&robot).unwrap_err();
+    let error = HalfRobot::from_robot(&robot).unwrap_err();
     assert_eq!(
         error.to_string(),
         "body hip has no mirror image among the robot's bodies; statics needs one"
