@@ -6,12 +6,15 @@ use std::path::{Path, PathBuf};
 use prone_files::shipped;
 
 /// What ships is listed once, and the published study has two gaits and a cycle.
-const MAY: [&str; 2] = ["prone-files/src/shipped.rs", "prone-study/src/published.rs"];
+const MAY: [&str; 2] = [
+    "prone-files/src/shipped.rs",
+    "prone-thesis/src/published.rs",
+];
 
 /// Words that are names of gaits too.
 const OTHER_MEANING: [(&str, &str); 1] = [
     // A motor's torque.
-    ("prone-study/src/report/card_sections.rs", "nominal"),
+    ("prone-report/src/report/card_sections.rs", "nominal"),
 ];
 
 #[test]

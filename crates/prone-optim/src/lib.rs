@@ -32,8 +32,8 @@ pub use differential_evolution::{DifferentialEvolution, DifferentialEvolutionOpt
 pub use evaluator::{Evaluator, NoScores};
 pub use genetic::{Genetic, GeneticOptions};
 pub use observer::{Generation, History, Observer, TimeBudget};
-pub use problem::{Candidate, Interval, IntervalError, Problem, Score};
+pub use problem::{Candidate, Failure, Interval, IntervalError, Problem, Score};
 pub use random::Random;
 pub use run::{Run, StopReason, Termination};
-pub use scorer::{Answer, Failure, Query, QueryId, Scorer, Threads};
+pub use scorer::{Answer, Query, QueryId, Scorer, Threads};
 pub use solver::Solver;

@@ -4,8 +4,6 @@ use std::cmp::Ordering;
 
 use serde::{Deserialize, Serialize};
 
-use crate::Failure;
-
 /// A problem: lower scores are better.
 pub trait Problem: Sync {
     /// Limits of each variable; points outside are never asked for.
@@ -25,6 +23,24 @@ impl<P: Problem> Problem for &P {
 
     fn evaluate(&self, point: &[f64]) -> Result<Score, Failure> {
         (**self).evaluate(point)
+    }
+}
+
+/// Why a point has no score. It depends on nothing but the point, as a score does: the solver sees
+/// the worst score of all, [`Score::WORST`], and goes on.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Serialize, Deserialize)]
+#[error("{reason}")]
+pub struct Failure {
+    /// In words.
+    pub reason: String,
+}
+
+impl Failure {
+    /// A failure for the reason that an error states.
+    pub fn from_error(error: &impl std::fmt::Display) -> Self {
+        Self {
+            reason: error.to_string(),
+        }
     }
 }
 

@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::{Interval, Problem, Score};
+use crate::{Failure, Interval, Problem, Score};
 
 /// Which point of a batch a result belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -25,24 +25,6 @@ pub struct Query {
     pub id: QueryId,
     /// The point.
     pub point: Vec<f64>,
-}
-
-/// Why a point has no score. It depends on nothing but the point, as a score does: the solver sees
-/// the worst score of all, [`Score::WORST`], and goes on.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Serialize, Deserialize)]
-#[error("{reason}")]
-pub struct Failure {
-    /// In words.
-    pub reason: String,
-}
-
-impl Failure {
-    /// A failure for the reason that an error states.
-    pub fn from_error(error: &impl std::fmt::Display) -> Self {
-        Self {
-            reason: error.to_string(),
-        }
-    }
 }
 
 /// A result and the point that it belongs to.
