@@ -44,7 +44,7 @@ fn crawl_run(args: &CrawlRunArgs) -> Result<(), Failure> {
         joint_ranges: Arc::new(prone_thesis::published::crawl_range),
     };
     let outcome = session
-        .crawl(&experiment, &setup, &interrupt::Interrupted)
+        .crawl(&setup, &interrupt::Interrupted)
         .map_err(failure)?;
     let summary = &outcome.summary;
     if let (Some(folder), Some(mut artefacts)) = (&args.record, outcome.artefacts) {

@@ -6,16 +6,18 @@ use anyhow::anyhow;
 
 use prone::gait::cycle::Cycle;
 use prone_files::cycle_file;
+use prone_record::experiment::{
+    GaitText, PassageCycle, PassageExperiment, PassageSearch, RobotText,
+};
 use prone_record::single_file;
 use prone_sim::LoadedRobot;
-use prone_study::search::passage::{Passage, PassageError, PassageSearch};
-use prone_study::search::run::SearchError;
-use prone_study::search::settings;
+use prone_study::run::{PassageOutcome, RunError, Session};
+use prone_study::search::passage::{Passage, PassageError};
 
 use crate::args::passage::UnderArgs;
 use crate::gait::find_cycle;
 use crate::progress::Progress;
-use crate::{Failure, interrupt, search};
+use crate::{Failure, interrupt};
 
 /// A cycle by name, or the cycle of a file.
 pub(crate) fn find(robot: &LoadedRobot, name: &str) -> Result<Cycle, Failure> {
@@ -27,67 +29,58 @@ pub(crate) fn cycles(robot: &LoadedRobot, names: &[String]) -> Result<Vec<Cycle>
     names.iter().map(|name| find(robot, name)).collect()
 }
 
-/// Cycles by name, or those that the robot's `[defaults]` name, each with where it comes from.
-fn sources(robot: &LoadedRobot, names: &[String]) -> Result<Vec<(Cycle, &'static str)>, Failure> {
-    let files = robot.files();
+/// What was typed, with the texts of the cycles: those that are named, or else those that the robot's
+/// `[defaults]` name.
+fn experiment(args: &UnderArgs) -> Result<PassageExperiment, Failure> {
+    let files = crate::robot::files(args.robot.name())?;
     let usual = files.defaults().map_err(Failure::input)?.cycle.under;
-    let names = if names.is_empty() { &usual } else { names };
-    let sources = names.iter().map(|name| {
+    let names = match args.gaits.names() {
+        [] => &usual,
+        names => names,
+    };
+    let cycles = names.iter().map(|name| {
         let source = find_cycle(&files.gaits, name)?;
         let origin = if source.is_shipped() {
             "shipped"
         } else {
             "file"
         };
-        Ok((source.cycle, origin))
+        Ok(PassageCycle {
+            gait: GaitText::new(&source.file, &source.text),
+            origin: origin.to_owned(),
+        })
     });
-    sources.collect()
+    Ok(PassageExperiment {
+        cycles: cycles.collect::<Result<_, Failure>>()?,
+        robot: RobotText::from_files(&files),
+        ceiling_mm: args.ceiling_mm,
+        margin_mm: args.margin_mm,
+        search: args.seed.map(|seed| PassageSearch {
+            seed,
+            budget: args.budget,
+        }),
+    })
 }
 
 pub(crate) fn run(args: &UnderArgs) -> Result<(), Failure> {
-    let robot = crate::robot::load(args.robot.name())?;
-    let sources = sources(&robot, args.gaits.names())?;
-    let settings = settings::for_advance(&robot).map_err(Failure::input)?;
-    let (ceiling, margin) = (args.ceiling_mm * 1e-3, args.margin_mm * 1e-3);
-    if margin >= ceiling {
-        return Err(no_room("--ceiling-mm", args.ceiling_mm, args.margin_mm));
-    }
+    let experiment = experiment(args)?;
     interrupt::listen()?;
-    let tried = sources.iter().map(|(cycle, origin)| (cycle, *origin));
-    let mut passage = Passage::try_all(robot.robot(), &settings[0], tried, ceiling, margin);
-    let mut cycles: Vec<Cycle> = sources.into_iter().map(|(cycle, _)| cycle).collect();
-    if let (Some(seed), true) = (args.seed, passage.may_be_searched()) {
-        let search = PassageSearch {
-            seed,
-            budget: args.budget,
-        };
-        let (mm, height) = (args.ceiling_mm, ceiling - margin);
-        let progress = Progress::searching()?;
-        let found = search::pool(args.threads)?
-            .install(|| search.run(&robot, &cycles, &mut passage, mm, height, &progress));
-        progress.finish();
-        cycles.extend(found.map_err(|error| match error {
-            PassageError::Result(SearchError::Stopped) => Failure::Stopped,
-            PassageError::Result(error) => Failure::work(error),
-            PassageError::Search(error) => Failure::input(error),
-        })?);
-    }
-    if interrupt::requested() {
-        return Err(Failure::Stopped);
-    }
-    if let (Some(path), Some(best)) = (&args.gait_out, &passage.best) {
-        let cycle = cycles
-            .iter()
-            .rev()
-            .find(|cycle| cycle.pull.name == best.gait);
+    let session = Session {
+        program: crate::program(),
+        threads: args.threads.map(usize::from),
+        ..Session::default()
+    };
+    let progress = Progress::searching()?;
+    let outcome = session.passage(&experiment, &progress);
+    progress.finish();
+    let PassageOutcome { passage, cycle } = outcome.map_err(failure)?;
+    if let (Some(path), Some(best), Some(cycle)) = (&args.gait_out, &passage.best, &cycle) {
         let header = format!(
             "Passes {} mm with {:.1} mm to spare, {:.1} mm per cycle (prone crawl under).",
             args.ceiling_mm, best.left_mm, best.mm_per_cycle
         );
-        if let Some(cycle) = cycle {
-            let text = cycle_file::write(cycle, &header);
-            single_file::write(path, text.as_bytes()).map_err(Failure::input)?;
-        }
+        let text = cycle_file::write(cycle, &header);
+        single_file::write(path, text.as_bytes()).map_err(Failure::input)?;
     }
     let mut out = std::io::stdout().lock();
     if args.json {
@@ -97,6 +90,19 @@ pub(crate) fn run(args: &UnderArgs) -> Result<(), Failure> {
         print(&passage, args.seed, &mut out)?;
     }
     Ok(())
+}
+
+fn failure(error: RunError) -> Failure {
+    match error {
+        RunError::Stopped => Failure::Stopped,
+        RunError::NoRoom {
+            ceiling_mm,
+            margin_mm,
+        } => no_room("--ceiling-mm", ceiling_mm, margin_mm),
+        RunError::Passage(PassageError::Result(error)) => Failure::work(error),
+        RunError::Threads(_) => Failure::work(error),
+        other => Failure::input(other),
+    }
 }
 
 /// A margin that is as large as its ceiling.

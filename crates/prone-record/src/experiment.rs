@@ -5,11 +5,13 @@
 //! experiment is run.
 
 mod crawl;
+mod passage;
 mod source;
 
 pub use crawl::{
     CrawlExperiment, Detail, Ending, PullExperiment, SceneChoice, ServoChoice, SteeringChoice,
 };
+pub use passage::{PassageCycle, PassageExperiment, PassageSearch};
 pub use source::{ChangedText, GaitText, RobotText, SceneText};
 
 use serde::{Deserialize, Serialize};
@@ -22,6 +24,8 @@ pub enum Experiment {
     Pull(Box<PullExperiment>),
     /// Whole cycles in a scene.
     Crawl(Box<CrawlExperiment>),
+    /// Whether a robot gets under a ceiling.
+    Passage(Box<PassageExperiment>),
 }
 
 impl Experiment {
@@ -30,6 +34,7 @@ impl Experiment {
         match self {
             Self::Pull(it) => &it.robot,
             Self::Crawl(it) => &it.robot,
+            Self::Passage(it) => &it.robot,
         }
     }
 }

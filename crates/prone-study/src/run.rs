@@ -9,11 +9,14 @@ use std::time::{Duration, Instant};
 
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
+use prone::gait::cycle::Cycle;
 use prone::gait::{PhaseDuration, PhaseDurationError};
 use prone::regime::Regime;
 use prone_files::{FileError, gait_file};
 use prone_record::crawl_summary::CrawlSummary;
-use prone_record::experiment::{ChangedText, CrawlExperiment, Detail, Experiment, PullExperiment};
+use prone_record::experiment::{
+    ChangedText, Detail, Experiment, PassageExperiment, PullExperiment,
+};
 use prone_record::output::Artefacts;
 use prone_record::program::Program;
 use prone_record::pulls::PullRecord;
@@ -23,8 +26,13 @@ use prone_sim::{LoadError, LoadedRobot, World, WorldError};
 
 use crate::crawl::pull::PullRecording;
 use crate::crawl::record::{self, RecordError, Recording};
-use crate::crawl::{self, CrawlRunError, CrawlSetup, CrawlSetupError, RefusedCycle, summary};
+use crate::crawl::{
+    self, CrawlRunError, CrawlSetup, CrawlSetupError, GaitSource, RefusedCycle, summary,
+};
 use crate::pulls::pull_record;
+use crate::search::passage::{Passage, PassageError};
+use crate::search::run::SearchError;
+use crate::search::settings::{self, SettingError};
 use crate::watch::Watch;
 
 /// The range that a joint swept on a robot, rad, where one is published.
@@ -35,9 +43,9 @@ pub type JointRanges = Arc<dyn Fn(&str) -> Option<(f64, f64)> + Send + Sync>;
 pub struct Session {
     /// The program that records name.
     pub program: Program,
-    /// Worker threads; all cores where it is not said.
+    /// Worker threads; `None` takes all cores.
     pub threads: Option<usize>,
-    /// What the figure of joint angles is held against.
+    /// Ranges that the figure of joint angles is held against.
     pub joint_ranges: JointRanges,
 }
 
@@ -48,6 +56,8 @@ pub enum Outcome {
     Pull(Box<PullOutcome>),
     /// Of a crawl.
     Crawl(Box<CrawlOutcome>),
+    /// Of a question whether a robot gets under a ceiling.
+    Passage(Box<PassageOutcome>),
 }
 
 /// What came out of a pull.
@@ -70,6 +80,15 @@ pub struct CrawlOutcome {
     pub artefacts: Option<Artefacts>,
     /// What it took.
     pub took: Took,
+}
+
+/// Whether a robot gets under a ceiling.
+#[derive(Debug)]
+pub struct PassageOutcome {
+    /// The answer.
+    pub passage: Passage,
+    /// The fastest cycle that fits, where there is one.
+    pub cycle: Option<Cycle>,
 }
 
 /// What an experiment took.
@@ -116,6 +135,20 @@ pub enum RunError {
     /// A record has no files.
     #[error(transparent)]
     Record(#[from] RecordError),
+    /// A margin that is as large as its ceiling.
+    #[error("a margin of {margin_mm} mm leaves no room under a ceiling of {ceiling_mm} mm")]
+    NoRoom {
+        /// The ceiling, mm.
+        ceiling_mm: f64,
+        /// The margin, mm.
+        margin_mm: f64,
+    },
+    /// Cycles cannot be tried.
+    #[error(transparent)]
+    Setting(#[from] SettingError),
+    /// A search under a ceiling has no result.
+    #[error(transparent)]
+    Passage(PassageError),
     /// The worker threads cannot be started.
     #[error("cannot start worker threads: {0}")]
     Threads(#[from] ThreadPoolBuildError),
@@ -152,10 +185,13 @@ impl Session {
     /// [`RunError`].
     pub fn run(&self, experiment: &Experiment, watch: &dyn Watch) -> Result<Outcome, RunError> {
         match experiment {
-            Experiment::Pull(pull) => Ok(Outcome::Pull(Box::new(self.pull(pull)?))),
+            Experiment::Pull(pull) => Ok(Outcome::Pull(Box::new(self.pull(pull, watch)?))),
             Experiment::Crawl(crawl) => {
                 let setup = CrawlSetup::new(crawl)?;
-                Ok(Outcome::Crawl(Box::new(self.crawl(crawl, &setup, watch)?)))
+                Ok(Outcome::Crawl(Box::new(self.crawl(&setup, watch)?)))
+            }
+            Experiment::Passage(passage) => {
+                Ok(Outcome::Passage(Box::new(self.passage(passage, watch)?)))
             }
         }
     }
@@ -173,13 +209,13 @@ impl Session {
     ///
     /// # Errors
     /// [`RunError`].
-    pub fn crawl(
-        &self,
-        experiment: &CrawlExperiment,
-        setup: &CrawlSetup,
-        watch: &dyn Watch,
-    ) -> Result<CrawlOutcome, RunError> {
+    pub fn crawl(&self, setup: &CrawlSetup, watch: &dyn Watch) -> Result<CrawlOutcome, RunError> {
         let started = Instant::now();
+        // Pictures are taken on it.
+        let pool = match setup.detail() {
+            Detail::Sums => None,
+            Detail::Rows => Some(self.pool()?),
+        };
         let crawl = setup.run(&|| watch.stop()).map_err(|error| match error {
             CrawlRunError::Crawl(CrawlError::Stopped) => RunError::Stopped,
             other => RunError::Crawl(other),
@@ -192,10 +228,9 @@ impl Session {
             setup.past,
         )
         .map_err(|error| setup.gait.refused(&error))?;
-        let pool = self.pool()?;
-        let artefacts = match experiment.detail {
-            Detail::Sums => None,
-            Detail::Rows => {
+        let artefacts = match &pool {
+            None => None,
+            Some(pool) => {
                 let recording = Recording {
                     robot: &setup.robot,
                     world: &setup.world,
@@ -215,17 +250,77 @@ impl Session {
             artefacts,
             took: Took {
                 wall: started.elapsed(),
-                threads: pool.current_num_threads(),
+                threads: pool
+                    .as_ref()
+                    .map_or(1, rayon::ThreadPool::current_num_threads),
                 engine_steps: crawl.engine_steps,
             },
         })
     }
 
-    fn pull(&self, experiment: &PullExperiment) -> Result<PullOutcome, RunError> {
+    /// Tries cycles under a ceiling, and searches one where none fits and that is asked for.
+    ///
+    /// # Errors
+    /// [`RunError`].
+    pub fn passage(
+        &self,
+        experiment: &PassageExperiment,
+        watch: &dyn Watch,
+    ) -> Result<PassageOutcome, RunError> {
+        let (ceiling_mm, margin_mm) = (experiment.ceiling_mm, experiment.margin_mm);
+        // NaN leaves no room either.
+        if (ceiling_mm - margin_mm).total_cmp(&0.0).is_le()
+            || margin_mm.is_nan()
+            || ceiling_mm.is_nan()
+        {
+            return Err(RunError::NoRoom {
+                ceiling_mm,
+                margin_mm,
+            });
+        }
+        let robot = LoadedRobot::load(experiment.robot.files()?)?;
+        let sources = experiment.cycles.iter();
+        let sources = sources.map(|it| Ok((GaitSource::from_text(&it.gait)?.cycle, &*it.origin)));
+        let sources: Vec<(Cycle, &str)> = sources.collect::<Result<_, CrawlSetupError>>()?;
+        let settings = settings::for_advance(&robot)?;
+        let (ceiling, margin) = (ceiling_mm * 1e-3, margin_mm * 1e-3);
+        let tried = sources.iter().map(|(cycle, origin)| (cycle, *origin));
+        let mut passage = Passage::try_all(robot.robot(), &settings[0], tried, ceiling, margin);
+        let mut cycles: Vec<Cycle> = sources.into_iter().map(|(cycle, _)| cycle).collect();
+        if let (Some(asked), true) = (experiment.search, passage.may_be_searched()) {
+            let height = ceiling - margin;
+            let found = self
+                .pool()?
+                .install(|| passage.search(asked, &robot, &cycles, ceiling_mm, height, watch));
+            cycles.extend(found.map_err(|error| match error {
+                PassageError::Result(SearchError::Stopped) => RunError::Stopped,
+                other => RunError::Passage(other),
+            })?);
+        }
+        if watch.stop() {
+            return Err(RunError::Stopped);
+        }
+        // What was searched last is the one of its name.
+        let best = passage.best.as_ref();
+        let cycle = best.and_then(|best| {
+            let mut last_first = cycles.into_iter().rev();
+            last_first.find(|cycle| cycle.pull.name == best.gait)
+        });
+        Ok(PassageOutcome { passage, cycle })
+    }
+
+    fn pull(
+        &self,
+        experiment: &PullExperiment,
+        watch: &dyn Watch,
+    ) -> Result<PullOutcome, RunError> {
         let robot = LoadedRobot::load(experiment.robot.files()?)?;
         let gait = gait_file::parse(&experiment.gait.file, experiment.gait.checked()?)?;
         let duration = PhaseDuration::new(experiment.duration_s)?;
         let world = World::new(&robot, Regime::TORQUE_STUDY)?;
+        if watch.stop() {
+            return Err(RunError::Stopped);
+        }
         let keep = Keep::Shown { pictures: 0 };
         let pull = pull::run(&world, &gait, duration, Start::FirstPose, keep)?;
         let recording = PullRecording {
@@ -234,6 +329,7 @@ impl Session {
             gait: &gait,
             file: (&experiment.gait.file, &experiment.gait.text),
             duration_s: duration.seconds(),
+            start_posture: "the gait's own first pose",
             pull: &pull,
         };
         Ok(PullOutcome {

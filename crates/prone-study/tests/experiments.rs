@@ -5,7 +5,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use prone_files::robot_folder::RobotFiles;
 use prone_files::shipped;
 use prone_record::experiment::{
-    CrawlExperiment, Detail, Ending, Experiment, GaitText, PullExperiment, RobotText,
+    CrawlExperiment, Detail, Ending, Experiment, GaitText, PassageCycle, PassageExperiment,
+    PullExperiment, RobotText, SceneText, SteeringChoice,
 };
 use prone_study::run::{Outcome, RunError, run};
 use prone_study::watch::{Progress, Unwatched, Watch};
@@ -38,7 +39,7 @@ fn a_crawl_that_was_sent_is_the_crawl_that_was_asked_for() {
             assert!(crawl.artefacts.is_none(), "no rows were asked for");
             crawl.summary
         }
-        Outcome::Pull(_) => panic!("a crawl was asked for"),
+        Outcome::Pull(_) | Outcome::Passage(_) => panic!("a crawl was asked for"),
     };
     let here = summary(&experiment);
     assert_eq!(here.cycles, 1);
@@ -59,6 +60,80 @@ fn a_pull_leaves_the_record_of_a_pull() {
     assert_eq!(pull.record.rows.len(), 20, "one row per control step");
     assert!(pull.artefacts.contains_key("rows.csv"));
     assert!(pull.artefacts.contains_key("run.json"));
+}
+
+#[test]
+fn a_passage_names_the_cycle_that_fits() {
+    let passage = PassageExperiment {
+        robot: robot(),
+        cycles: ["low-175", "low-165"]
+            .map(|name| PassageCycle {
+                gait: gait(name),
+                origin: "shipped".to_owned(),
+            })
+            .into(),
+        ceiling_mm: 172.0,
+        margin_mm: 1.0,
+        search: None,
+    };
+    let experiment = sent(&Experiment::Passage(Box::new(passage.clone())));
+    let Outcome::Passage(outcome) = run(&experiment, &Unwatched).unwrap() else {
+        panic!("a passage was asked for");
+    };
+    assert!(outcome.passage.feasible);
+    assert_eq!(outcome.cycle.unwrap().pull.name, "low-165");
+    for margin_mm in [172.0, f64::NAN] {
+        let none = PassageExperiment {
+            margin_mm,
+            ..passage.clone()
+        };
+        let error = run(&Experiment::Passage(Box::new(none)), &Unwatched).unwrap_err();
+        assert!(matches!(error, RunError::NoRoom { .. }), "{error}");
+    }
+}
+
+#[test]
+fn limit_what_no_crawl_can_have() {
+    let refused = |change: fn(&mut CrawlExperiment)| {
+        let mut experiment = crawl();
+        change(&mut experiment);
+        let experiment = Experiment::Crawl(Box::new(experiment));
+        run(&experiment, &Unwatched).unwrap_err().to_string()
+    };
+    for (said, expected) in [
+        (
+            refused(|it| it.joint_offset_deg = Some(2.0)),
+            "calibration errors cannot be drawn without a seed",
+        ),
+        (
+            refused(|it| it.uphill = Some(it.gait.clone())),
+            "the noise of the inertial unit cannot be drawn without a seed",
+        ),
+        (
+            refused(|it| {
+                it.joint_offset_deg = Some(f64::NAN);
+                it.seed = Some(1);
+            }),
+            "a calibration error of degrees NaN is outside 0..10",
+        ),
+        (
+            refused(|it| it.ending = Ending::Cycles(0)),
+            "a number of cycles of 0 is outside 1..1000",
+        ),
+        (
+            refused(|it| it.steering = SteeringChoice::Heading { degrees: 181.0 }),
+            "a heading of degrees 181 is outside -180..180",
+        ),
+        (
+            refused(|it| {
+                it.scene.text = Some(SceneText::new("s.toml", ""));
+                it.scene.plate = Some((178.0, 1.0));
+            }),
+            "scene s.toml and a plate exclude each other",
+        ),
+    ] {
+        assert_eq!(said, expected);
+    }
 }
 
 /// Says stop after so many looks.

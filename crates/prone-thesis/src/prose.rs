@@ -18,6 +18,7 @@ pub(crate) struct Prose {
     pub(crate) contacts: String,
     pub(crate) mappings: String,
     pub(crate) clamps: String,
+    pub(crate) stride: String,
     of_robots: Vec<OfRobot>,
 }
 
@@ -26,6 +27,7 @@ pub(crate) struct Prose {
 pub(crate) struct OfRobot {
     family: String,
     pub(crate) clamps: String,
+    pub(crate) table: String,
     pub(crate) differences: Vec<String>,
 }
 
@@ -103,10 +105,16 @@ mod tests {
 
     fn sentences(prose: &Prose) -> impl Iterator<Item = &String> {
         let of_robots = prose.of_robots.iter();
-        let of_robots = of_robots.flat_map(|it| it.differences.iter().chain([&it.clamps]));
-        [&prose.contacts, &prose.mappings, &prose.clamps]
-            .into_iter()
-            .chain(of_robots)
+        let of_robots =
+            of_robots.flat_map(|it| it.differences.iter().chain([&it.clamps, &it.table]));
+        [
+            &prose.contacts,
+            &prose.mappings,
+            &prose.clamps,
+            &prose.stride,
+        ]
+        .into_iter()
+        .chain(of_robots)
     }
 
     /// Every name in a sentence is one that a reproduction has a number for.

@@ -221,6 +221,7 @@ fn pull_records(
             gait,
             file: file.map_or(("", ""), |(file, text)| (file, text)),
             duration_s: study.showcase_s,
+            start_posture: &world.robot().study.start_posture,
             pull,
         };
         let folder = format!("pulls/{}-{}s", gait.name, study.showcase_s);

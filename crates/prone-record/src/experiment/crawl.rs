@@ -7,9 +7,9 @@ use super::{GaitText, RobotText, SceneText};
 /// One closed-chain phase in the regime of the torque study, from the gait's own first pose.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PullExperiment {
-    /// With which robot.
+    /// The robot that pulls.
     pub robot: RobotText,
-    /// Which pull.
+    /// The pull that it does.
     pub gait: GaitText,
     /// How long it lasts, s.
     pub duration_s: f64,
@@ -18,13 +18,13 @@ pub struct PullExperiment {
 /// Whole cycles in a scene, in the regime `locomotion`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CrawlExperiment {
-    /// With which robot.
+    /// The robot that crawls.
     pub robot: RobotText,
-    /// Which cycle.
+    /// The cycle that it repeats.
     pub gait: GaitText,
     /// Which cycle instead where the robot feels that it goes uphill.
     pub uphill: Option<GaitText>,
-    /// Where.
+    /// Where it crawls.
     pub scene: SceneChoice,
     /// When it ends.
     pub ending: Ending,
@@ -38,7 +38,7 @@ pub struct CrawlExperiment {
     pub time_step_s: Option<f64>,
     /// Largest calibration error of a joint, degrees, each drawn evenly by the seed.
     pub joint_offset_deg: Option<f64>,
-    /// Of these errors, and of the inertial unit's noise.
+    /// Seed of the calibration errors and of the inertial unit's noise; both need it.
     pub seed: Option<u64>,
     /// What is kept.
     pub detail: Detail,
@@ -101,7 +101,7 @@ pub enum ServoChoice {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Detail {
-    /// What adds up.
+    /// Sums over cycles: advance, heights, efforts.
     Sums,
     /// Rows and pictures too: what a record folder needs.
     Rows,

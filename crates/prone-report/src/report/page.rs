@@ -199,15 +199,7 @@ impl Page<'_> {
     fn tables_after(&self, number: &str) -> Markup {
         html! {
             @for run in self.published() { (run.tables_after(number)) }
-            @if number == CURVES {
-                @for run in self.runs {
-                    @if let Run::Search(search) = run {
-                        (curve_tables::found(
-                            &search.result.gait, &search.folder.name, &search.result.curves,
-                        ))
-                    }
-                }
-            }
+            @if number == CURVES { (self.curves()) }
         }
     }
 
@@ -235,18 +227,34 @@ impl Page<'_> {
         }
     }
 
-    /// Figures that the chapter does not have.
+    /// Figures that have no place in the publication.
     fn beyond(&self) -> Markup {
-        let others: Vec<&Shown> = self
-            .shown
-            .iter()
-            .filter(|shown| shown.number.is_empty())
-            .collect();
+        let has_place = |number: &str| {
+            let mut parts = self.publication.parts().iter();
+            parts.any(|part| part.places.iter().any(|place| place.number == number))
+        };
+        let others = self.shown.iter();
+        let others: Vec<&Shown> = others.filter(|shown| !has_place(&shown.number)).collect();
         html! {
             @if !others.is_empty() {
                 section {
-                    h2 { "Beyond the chapter" }
+                    @if self.publication.parts().is_empty() { h2 { "Figures" } }
+                    @else { h2 { "Beyond the chapter" } }
                     @for figure in others { (self.captioned(figure, None)) }
+                    @if !has_place(CURVES) { (self.curves()) }
+                }
+            }
+        }
+    }
+
+    /// What gaits that were found are made of.
+    fn curves(&self) -> Markup {
+        html! {
+            @for run in self.runs {
+                @if let Run::Search(search) = run {
+                    (curve_tables::found(
+                        &search.result.gait, &search.folder.name, &search.result.curves,
+                    ))
                 }
             }
         }
@@ -457,6 +465,18 @@ mod tests {
             left_out: BTreeSet::new(),
         };
         let (bare, _) = page.html().unwrap();
+        assert!(!bare.contains("<h2>Figures</h2>"));
+        let shown = [picture("22", 100)];
+        let page = Page {
+            runs: &[],
+            shown: &shown,
+            cards: &[],
+            publication: &Unpublished,
+            left_out: BTreeSet::new(),
+        };
+        let (unplaced, _) = page.html().unwrap();
+        assert!(unplaced.contains("<h2>Figures</h2>"));
+        assert_eq!(unplaced.matches("What it shows.").count(), 1);
         assert_eq!(bare.matches("class=\"place\"").count(), 0);
     }
 }

@@ -27,6 +27,8 @@ pub struct PullRecording<'a> {
     pub file: (&'a str, &'a str),
     /// How long it lasted, s.
     pub duration_s: f64,
+    /// In which posture it began, in words or by its name among the robot's postures.
+    pub start_posture: &'a str,
     /// With what is shown of its rows.
     pub pull: &'a Pull,
 }
@@ -42,13 +44,14 @@ pub fn files(recording: &PullRecording<'_>, program: &Program) -> Result<Artefac
         gait,
         file,
         duration_s,
+        start_posture,
         pull,
     } = *recording;
     let options = PullOptions {
         time_scale: Some(1.0),
         scene_text: None,
         duration_s,
-        start_posture: Some(world.robot().study.start_posture.clone()),
+        start_posture: Some(start_posture.to_owned()),
     };
     let instants: Vec<Instant<'_>> = pull.rows.iter().filter_map(instants::of_pull).collect();
     let subject = Subject {

@@ -74,6 +74,30 @@ pub enum CrawlSetupError {
         /// What was asked for, s.
         seconds: f64,
     },
+    /// A number that no crawl can have.
+    #[error("{quantity} {value} is outside {lowest}..{highest}")]
+    Limit {
+        /// What it is, with its unit.
+        quantity: &'static str,
+        /// What was asked for.
+        value: f64,
+        /// Its lower bound.
+        lowest: f64,
+        /// Its upper bound.
+        highest: f64,
+    },
+    /// Something is drawn at random, and there is no seed.
+    #[error("{drawn} cannot be drawn without a seed")]
+    NoSeed {
+        /// What is drawn.
+        drawn: &'static str,
+    },
+    /// A scene's file and a plate exclude each other.
+    #[error("scene {scene} and a plate exclude each other")]
+    TwoScenes {
+        /// The scene's file.
+        scene: String,
+    },
     /// A turn command beyond what the cycle can be turned by.
     #[error("a turn command of {degrees}° is outside {} to {limit_deg}°, by which {gait} can be turned", 0.0 - limit_deg)]
     Turn {
@@ -181,6 +205,7 @@ impl CrawlSetup {
     /// # Errors
     /// [`CrawlSetupError`].
     pub fn new(experiment: &CrawlExperiment) -> Result<Self, CrawlSetupError> {
+        check(experiment)?;
         let robot = LoadedRobot::load(experiment.robot.files()?)?;
         let gait = GaitSource::from_text(&experiment.gait)?;
         let uphill = experiment.uphill.as_ref().map(GaitSource::from_text);
@@ -241,6 +266,11 @@ impl CrawlSetup {
             steering,
             detail: experiment.detail,
         })
+    }
+
+    /// What is kept of it.
+    pub const fn detail(&self) -> Detail {
+        self.detail
     }
 
     /// Simulates the crawl, stopped at once when `stopped` says so.
@@ -355,6 +385,50 @@ fn steering(choice: SteeringChoice, gait: &GaitSource) -> Result<Steering, Crawl
         }
     }
 }
+
+/// What can be said of an experiment before anything of it is read.
+fn check(experiment: &CrawlExperiment) -> Result<(), CrawlSetupError> {
+    let within = |quantity, value: f64, (lowest, highest): (f64, f64)| {
+        // NaN is within nothing.
+        if (lowest..=highest).contains(&value) {
+            return Ok(());
+        }
+        Err(CrawlSetupError::Limit {
+            quantity,
+            value,
+            lowest,
+            highest,
+        })
+    };
+    let (Ending::Cycles(cycles) | Ending::PastObstacles(cycles)) = experiment.ending;
+    within("a number of cycles of", cycles as f64, CYCLES)?;
+    if let Some(degrees) = experiment.joint_offset_deg {
+        within("a calibration error of degrees", degrees, OFFSETS_DEG)?;
+    }
+    if let SteeringChoice::Heading { degrees } = experiment.steering {
+        within("a heading of degrees", degrees, HEADINGS_DEG)?;
+    }
+    let no_seed = |drawn| Err(CrawlSetupError::NoSeed { drawn });
+    match experiment.seed {
+        None if experiment.joint_offset_deg.is_some() => no_seed("calibration errors"),
+        None if experiment.uphill.is_some() => no_seed("the noise of the inertial unit"),
+        _ => match (&experiment.scene.text, experiment.scene.plate) {
+            (Some(text), Some(_)) => Err(CrawlSetupError::TwoScenes {
+                scene: text.file.clone(),
+            }),
+            _ => Ok(()),
+        },
+    }
+}
+
+/// Fewest and most cycles of a crawl.
+const CYCLES: (f64, f64) = (1.0, 1000.0);
+
+/// Least and largest calibration error, degrees: a robot with a larger one is broken.
+const OFFSETS_DEG: (f64, f64) = (0.0, 10.0);
+
+/// Headings, degrees from the first one.
+const HEADINGS_DEG: (f64, f64) = (-180.0, 180.0);
 
 /// Shortest and longest engine step, s: contacts are too soft for longer ones.
 const TIME_STEPS: (f64, f64) = (1e-4, 0.005);

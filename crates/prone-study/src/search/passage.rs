@@ -8,6 +8,7 @@ use glam::DVec3;
 use prone::frames::{Ground, Root, Transform};
 use prone::gait::cycle::Cycle;
 use prone::robot::{ContactGroup, JointAngles, Robot};
+use prone_record::experiment::PassageSearch;
 use prone_record::frontier::CycleObjective;
 use prone_record::search::{Search, SearchEnd};
 use prone_sim::LoadedRobot;
@@ -161,15 +162,6 @@ impl Tried {
     }
 }
 
-/// How a cycle is searched where none fits.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct PassageSearch {
-    /// Its seed.
-    pub seed: u64,
-    /// Most evaluations.
-    pub budget: u64,
-}
-
 /// Why there is no answer.
 #[derive(Debug, thiserror::Error)]
 pub enum PassageError {
@@ -181,17 +173,17 @@ pub enum PassageError {
     Result(#[from] SearchError),
 }
 
-impl PassageSearch {
-    /// Searches a cycle that fits under a passage's ceiling, about the lowest one there is; it goes
-    /// into the passage. Nothing where the budget is too small.
+impl Passage {
+    /// Searches a cycle that fits under the ceiling, about the lowest one there is, and takes it into
+    /// account. Nothing where the budget is too small.
     ///
     /// # Errors
     /// [`PassageError`].
-    pub fn run(
-        &self,
+    pub fn search(
+        &mut self,
+        asked: PassageSearch,
         robot: &LoadedRobot,
         cycles: &[Cycle],
-        passage: &mut Passage,
         ceiling_mm: f64,
         height: f64,
         watch: &dyn Watch,
@@ -207,7 +199,7 @@ impl PassageSearch {
         };
         let searched = CycleSearch::new(robot.robot(), &settings, aim, base);
         let searched = searched.map_err(CycleSearchError::from)?;
-        let mut search = Search::about_the_middle(self.seed, 1, self.budget);
+        let mut search = Search::about_the_middle(asked.seed, 1, asked.budget);
         let end = search.proceed(&Threads(Searched(&searched)), |search| {
             watch.progress(&Progress::Searching(search));
             if watch.stop() {
@@ -225,12 +217,12 @@ impl PassageSearch {
         let mut cycle = searched.gait(&best.point).map_err(SearchError::from)?;
         let cost = searched.cost(&cycle, Depth::Everything);
         let ceiling_name = ceiling_mm.to_string().replace('.', "-");
-        cycle.pull.name = format!("under-{ceiling_name}-seed-{}", self.seed);
+        cycle.pull.name = format!("under-{ceiling_name}-seed-{}", asked.seed);
         let Some(trial) = cost.trials.first() else {
             return Ok(None);
         };
         let tried = Tried::from_trial(&cycle, trial, ceiling_mm * 1e-3);
-        passage.take(tried, "searched");
+        self.take(tried, "searched");
         Ok(Some(cycle))
     }
 }

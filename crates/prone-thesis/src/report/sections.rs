@@ -79,7 +79,9 @@ pub(crate) fn contacts(summary: &Summary, numbers: &Numbers) -> Markup {
         section {
             h2 { "Which part carries the body when" }
             p {
-                (numbers.fill(&Prose::shipped().contacts))
+                @if summary.robot.as_ref().is_some_and(|robot| robot.sunk_mm > 0.0) {
+                    (numbers.fill(&Prose::shipped().contacts))
+                }
             }
             @for story in &summary.contacts { (contact_table(story)) }
         }
@@ -207,7 +209,7 @@ pub(crate) fn agreement(summary: &Summary) -> Markup {
     }
 }
 
-pub(crate) fn stride(summary: &Summary) -> Markup {
+pub(crate) fn stride(summary: &Summary, numbers: &Numbers) -> Markup {
     let [first, second] = summary.stride.published_robot_mm_per_cycle;
     html! {
         section {
@@ -231,10 +233,7 @@ pub(crate) fn stride(summary: &Summary) -> Markup {
             }
             div.scroll { table {
                 caption {
-                    "Simulated pulls, ours: advance of the trunk's frame over the whole phase, from lying \
-                     on the belly on slippery ground (friction 0.05: toes and elbows slide, so it is no \
-                     stride); highest point of the body and of the head. Sagging joints pitch the head \
-                     higher than planned."
+                    (numbers.fill(&Prose::shipped().stride))
                 }
                 thead { tr {
                     @for head in ["pull", "advance", "to the left", "highest point", "head"] { th scope="col" { (head) } }
@@ -251,19 +250,22 @@ pub(crate) fn stride(summary: &Summary) -> Markup {
     }
 }
 
-pub(crate) fn table_crawl(summary: &Summary) -> Markup {
+pub(crate) fn table_crawl(summary: &Summary, info: &RunInfo) -> Markup {
     html! {
         @if let Some(first) = summary.table.first() {
             p {
                 "Pull, recovery, pull: the cycle " (first.ours.gait) " with the published poses, in \
-                 the scene " (first.ours.scene) ", contact regime locomotion (friction 0.7, the \
-                 manufacturer's effort and joint limits on). Published: " (first.published_obtained)
+                 the scene " (first.ours.scene)
+                @if let Some(table) = &info.options.table {
+                    ", contact regime " (table.regime) " (friction " (table.friction) ", the \
+                     manufacturer's effort and joint limits on)"
+                }
+                ". Published: " (first.published_obtained)
                 ". Ours: " (first.ours_obtained) ". Of the table only the height of its panels, \
-                 200 mm, is published; the other sizes are assumed. Our feet meet the panel and are \
-                 wedged against it for a while, which costs distance, heat and torque: our way back \
-                 folds the knees to the 120° of the published posture, while the recorded knees of \
-                 the robot, whose feet passed, stay below 40° (Figure 31). Distances agree partly \
-                 because of that; on a free floor the same cycle comes farther."
+                 200 mm, is published; the other sizes are assumed."
+                @if let Some(robot) = Prose::shipped().of_robot(info.robot.family.as_deref()) {
+                    @if !first.ours.contacts.is_empty() { " " (robot.table) }
+                }
             }
         }
         div.scroll { table {
@@ -304,7 +306,8 @@ pub(crate) fn clamps(summary: &Summary, numbers: &Numbers, family: Option<&str>)
         section {
             h2 { "Joints at their limits" }
             p {
-                (prose.clamps)
+                @if summary.clamps.is_empty() { "No joint is asked for more than its limits." }
+                @else { (prose.clamps) }
                 @if let Some(robot) = prose.of_robot(family) { " " (numbers.fill(&robot.clamps)) }
             }
             div.scroll { table {
@@ -329,7 +332,9 @@ pub(crate) fn mappings(summary: &Summary, numbers: &Numbers) -> Markup {
         section {
             h2 { "What the mapping changes" }
             p {
-                (numbers.fill(&Prose::shipped().mappings))
+                @if summary.robot.as_ref().is_some_and(|robot| robot.published.is_some()) {
+                    (numbers.fill(&Prose::shipped().mappings))
+                }
             }
             div.scroll { table {
                 caption { "Cost of the same gait under both mappings, ours, N²·m²·s." }

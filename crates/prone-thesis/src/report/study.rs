@@ -84,7 +84,7 @@ impl PublishedRun for StudyRun {
                 }
             }
             @if number == "28" && !self.summary.table.is_empty() {
-                (sections::table_crawl(&self.summary))
+                (sections::table_crawl(&self.summary, &self.info))
             }
         }
     }
@@ -96,7 +96,7 @@ impl PublishedRun for StudyRun {
             (sections::costs(&self.summary))
             (sections::agreement(&self.summary))
             (sections::contacts(&self.summary, &numbers))
-            (sections::stride(&self.summary))
+            (sections::stride(&self.summary, &numbers))
             (sections::clamps(&self.summary, &numbers, family))
             (sections::mappings(&self.summary, &numbers))
             (sections::differences(&numbers, family))
