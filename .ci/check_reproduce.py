@@ -174,7 +174,9 @@ def check_records(folder):
         rows = list(csv.DictReader((folder / name / "rows.csv").read_text("utf-8").splitlines()))
         contacts = (folder / name / "contacts.csv").read_text("utf-8").splitlines()[1:]
         path = folder / name
-        check(said == {"rows": round(end_s / step_s), "row_step_s": step_s}, f"{path}: {said}")
+        extent = {key: said[key] for key in ("format", "rows", "row_step_s")}
+        expected = {"format": 2, "rows": round(end_s / step_s), "row_step_s": step_s}
+        check(extent == expected, f"{path}: {extent}")
         check(len(rows) == said["rows"], f"{path}: {len(rows)} rows, not {said['rows']}")
         for index, row in enumerate(rows):
             due = f"{(index + 1) * step_s:.4f}"
