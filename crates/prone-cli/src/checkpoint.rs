@@ -32,6 +32,12 @@ pub(crate) fn open<S: Serialize + DeserializeOwned>(
             let message = format!("no search is kept in {path}: starting from the beginning");
             (resume.then_some(message), None)
         }
+        Earlier::Torn => {
+            let message = format!(
+                "{path} breaks off before its search is whole: starting from the beginning"
+            );
+            (Some(message), None)
+        }
         Earlier::Discarded { readable: true } => {
             let message = format!(
                 "replacing {path}, which an earlier search has left: --resume goes on from there"

@@ -17,7 +17,7 @@ use prone_study::search::passage::{Passage, PassageError};
 use crate::args::passage::UnderArgs;
 use crate::gait::find_cycle;
 use crate::progress::Progress;
-use crate::{Failure, interrupt};
+use crate::{Failure, interrupt, record_folder};
 
 /// A cycle by name, or the cycle of a file.
 pub(crate) fn find(robot: &LoadedRobot, name: &str) -> Result<Cycle, Failure> {
@@ -64,6 +64,10 @@ fn experiment(args: &UnderArgs) -> Result<PassageExperiment, Failure> {
 
 pub(crate) fn run(args: &UnderArgs) -> Result<(), Failure> {
     let experiment = experiment(args)?;
+    if let Some(path) = &args.gait_out {
+        record_folder::check_outside("--gait-out", path)?;
+        single_file::check_place(path).map_err(Failure::input)?;
+    }
     interrupt::listen()?;
     let session = Session {
         program: crate::program(),

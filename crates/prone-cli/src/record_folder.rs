@@ -30,10 +30,36 @@ pub(crate) fn say_missing(sentences: &[String]) -> Result<(), Failure> {
 /// Refuses a file that is to be made of a record where a folder is, and in the record or the result
 /// that it is part of: one file more, and the next result would not replace it.
 pub(crate) fn check_place(out: &Path, run: &Path) -> Result<(), Failure> {
+    let folder = folder_of("--out", out)?;
+    let result = result(run)?;
+    if folder.starts_with(&result) {
+        return Err(inside(out, &result));
+    }
+    Ok(())
+}
+
+/// Refuses a file in any result folder, for a command that reads none.
+pub(crate) fn check_outside(option: &str, out: &Path) -> Result<(), Failure> {
+    match output::result_with(&folder_of(option, out)?) {
+        None => Ok(()),
+        Some(result) => Err(inside(out, &result)),
+    }
+}
+
+fn inside(out: &Path, result: &Path) -> Failure {
+    Failure::Input(anyhow!(
+        "{} is inside {}, which keeps its own files only",
+        out.display(),
+        result.display()
+    ))
+}
+
+/// The real path of the folder that a file is to be written in.
+fn folder_of(option: &str, out: &Path) -> Result<PathBuf, Failure> {
     let shown = out.display();
     if out.is_dir() {
         return Err(Failure::Input(anyhow!(
-            "--out {shown} is a folder: name a file in it"
+            "{option} {shown} is a folder: name a file in it"
         )));
     }
     // What is written is what a link leads to.
@@ -42,17 +68,9 @@ pub(crate) fn check_place(out: &Path, run: &Path) -> Result<(), Failure> {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };
-    let folder = folder
+    folder
         .canonicalize()
-        .map_err(|error| Failure::Input(anyhow!("cannot write {shown}: {error}")))?;
-    let result = result(run)?;
-    if folder.starts_with(&result) {
-        return Err(Failure::Input(anyhow!(
-            "{shown} is inside {}, which keeps its own files only",
-            result.display()
-        )));
-    }
-    Ok(())
+        .map_err(|error| Failure::Input(anyhow!("cannot write {shown}: {error}")))
 }
 
 /// The result folder that a record is, or is part of: its real path.

@@ -146,6 +146,11 @@ mod tests {
         assert_eq!(beside(&pull).unwrap(), real.join("v1.2-nominal.html"));
         assert!(record_folder::check_place(&low.join("pulls/a.html"), &pull).is_err());
         assert!(record_folder::check_place(&page, &pull).is_ok());
+        // Whoever reads no record keeps out of results too.
+        let outside = |file: &Path| record_folder::check_outside("--gait-out", file);
+        assert!(outside(&low.join("run.json")).is_err());
+        assert!(outside(&low.join("pulls/nominal/gait.toml")).is_err());
+        assert!(outside(&home.path().join("gait.toml")).is_ok());
         // Nor is a record written over through a link from outside.
         let link = home.path().join("link.html");
         std::os::unix::fs::symlink(low.join("run.json"), &link).unwrap();

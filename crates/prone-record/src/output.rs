@@ -132,6 +132,14 @@ pub fn result_around(folder: &Path) -> PathBuf {
     results.next().unwrap_or(folder).to_owned()
 }
 
+/// The result folder whose list of files names one in a folder, if there is one: that folder or one
+/// above it.
+pub fn result_with(folder: &Path) -> Option<PathBuf> {
+    let mut above = folder.ancestors();
+    let result = above.find(|result| earlier::lists_files_in(result, folder));
+    result.map(Path::to_owned)
+}
+
 /// The same error without the hidden name of a file or folder in which something was to be made: a
 /// user knows the name that it would have got.
 pub fn without_hidden_name(error: &io::Error) -> io::Error {

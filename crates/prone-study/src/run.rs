@@ -268,11 +268,9 @@ impl Session {
         watch: &dyn Watch,
     ) -> Result<PassageOutcome, RunError> {
         let (ceiling_mm, margin_mm) = (experiment.ceiling_mm, experiment.margin_mm);
-        // NaN leaves no room either.
-        if (ceiling_mm - margin_mm).total_cmp(&0.0).is_le()
-            || margin_mm.is_nan()
-            || ceiling_mm.is_nan()
-        {
+        // NaN leaves none either.
+        let leaves_room = margin_mm < ceiling_mm;
+        if !leaves_room {
             return Err(RunError::NoRoom {
                 ceiling_mm,
                 margin_mm,

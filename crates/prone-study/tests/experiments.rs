@@ -114,15 +114,15 @@ fn limit_what_no_crawl_can_have() {
                 it.joint_offset_deg = Some(f64::NAN);
                 it.seed = Some(1);
             }),
-            "a calibration error of degrees NaN is outside 0..10",
+            "a calibration error of NaN° is outside 0 to 10°",
         ),
         (
             refused(|it| it.ending = Ending::Cycles(0)),
-            "a number of cycles of 0 is outside 1..1000",
+            "a crawl of 0 cycles is outside 1 to 1000 cycles",
         ),
         (
             refused(|it| it.steering = SteeringChoice::Heading { degrees: 181.0 }),
-            "a heading of degrees 181 is outside -180..180",
+            "a heading of 181° is outside -180 to 180°",
         ),
         (
             refused(|it| {

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Subcommand, ValueEnum};
 
 use prone::gait::cycle::TimeScale;
+use prone_record::experiment::CrawlExperiment;
 
 use super::named::{GaitArg, RobotArg};
 use super::passage::{FrontierArgs, UnderArgs};
@@ -147,24 +148,23 @@ pub(crate) enum TimeStepName {
     Fine,
 }
 
-/// Largest calibration error, degrees: beyond it a robot is broken.
-const LARGEST_OFFSET_DEG: f64 = 10.0;
-
 fn heading(text: &str) -> Result<f64, String> {
     let degrees: f64 = text.trim().parse().map_err(|_| "not a number".to_owned())?;
-    if (-180.0..=180.0).contains(&degrees) {
+    let (lowest, highest) = CrawlExperiment::HEADING_BOUNDS_DEG;
+    if (lowest..=highest).contains(&degrees) {
         Ok(degrees)
     } else {
-        Err(format!("{degrees} degrees is outside -180..180"))
+        Err(format!("{degrees} degrees is outside {lowest}..{highest}"))
     }
 }
 
 fn offset(text: &str) -> Result<f64, String> {
     let degrees: f64 = text.trim().parse().map_err(|_| "not a number".to_owned())?;
-    if (0.0..=LARGEST_OFFSET_DEG).contains(&degrees) {
+    let (lowest, highest) = CrawlExperiment::OFFSET_BOUNDS_DEG;
+    if (lowest..=highest).contains(&degrees) {
         Ok(degrees)
     } else {
-        Err(format!("outside 0 to {LARGEST_OFFSET_DEG}"))
+        Err(format!("outside {lowest} to {highest}"))
     }
 }
 

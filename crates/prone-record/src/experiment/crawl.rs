@@ -111,6 +111,15 @@ impl CrawlExperiment {
     /// How many cycles are crawled where nothing is said.
     pub const CYCLES: usize = 9;
 
+    /// Fewest and most cycles of a crawl.
+    pub const CYCLES_BOUNDS: (usize, usize) = (1, 1000);
+
+    /// Least and largest calibration error, degrees: a robot with a larger one is broken.
+    pub const OFFSET_BOUNDS_DEG: (f64, f64) = (0.0, 10.0);
+
+    /// Headings, degrees from the first one.
+    pub const HEADING_BOUNDS_DEG: (f64, f64) = (-180.0, 180.0);
+
     /// How many cycles a robot has to get past its obstacles.
     pub const MOST_CYCLES: usize = 60;
 

@@ -26,6 +26,8 @@ pub struct Snapshot<S> {
 pub enum Earlier<S> {
     /// Nothing.
     Nothing,
+    /// A file that breaks off before its state is whole, as a machine that goes down leaves it.
+    Torn,
     /// A state to go on from.
     State(S),
     /// Something that was to be discarded: it stays until the first state is written.
@@ -48,13 +50,14 @@ impl<S: Serialize + DeserializeOwned> Snapshot<S> {
     ) -> Result<(Self, Earlier<S>), ResumptionError> {
         let place = Place::new(work, result, plan)?;
         let earlier = match (place.standing()?, opening) {
+            (Standing::Nothing, Opening::Resume) if place.path.exists() => Earlier::Torn,
             (Standing::Nothing, _) => Earlier::Nothing,
             (Standing::Kept(_), Opening::Restart) => Earlier::Discarded { readable: true },
             (Standing::Other(_), Opening::Restart) => Earlier::Discarded { readable: false },
             (Standing::Other(format), Opening::Resume) => return Err(place.other_format(format)),
             (Standing::Kept(bytes), Opening::Resume) => {
                 let (mut states, _) = place.states(&bytes)?;
-                states.pop().map_or(Earlier::Nothing, Earlier::State)
+                states.pop().map_or(Earlier::Torn, Earlier::State)
             }
         };
         let snapshot = Self {

@@ -79,7 +79,7 @@ fn identity_a_journal_cut_at_any_byte_ends_in_the_same_result() {
     assert_eq!(fs::read_dir(home.path()).unwrap().count(), 0);
 }
 
-/// A snapshot is never torn by a kill; what a machine that went down left is begun anew.
+/// A snapshot is never torn by a kill; what a machine that went down left is told from nothing.
 #[test]
 fn identity_a_snapshot_cut_at_any_byte_is_whole_or_nothing() {
     let home = tempfile::tempdir().unwrap();
@@ -99,7 +99,7 @@ fn identity_a_snapshot_cut_at_any_byte_is_whole_or_nothing() {
         let expected = if length == bytes.len() {
             Earlier::State(vec![3, 5, 8])
         } else {
-            Earlier::Nothing
+            Earlier::Torn
         };
         assert_eq!(earlier, expected, "{length} bytes");
     }

@@ -75,10 +75,12 @@ pub enum CrawlSetupError {
         seconds: f64,
     },
     /// A number that no crawl can have.
-    #[error("{quantity} {value} is outside {lowest}..{highest}")]
+    #[error("{quantity} of {value}{unit} is outside {lowest} to {highest}{unit}")]
     Limit {
-        /// What it is, with its unit.
+        /// What it is.
         quantity: &'static str,
+        /// Its unit, as it follows a number.
+        unit: &'static str,
         /// What was asked for.
         value: f64,
         /// Its lower bound.
@@ -388,25 +390,38 @@ fn steering(choice: SteeringChoice, gait: &GaitSource) -> Result<Steering, Crawl
 
 /// What can be said of an experiment before anything of it is read.
 fn check(experiment: &CrawlExperiment) -> Result<(), CrawlSetupError> {
-    let within = |quantity, value: f64, (lowest, highest): (f64, f64)| {
+    let within = |quantity, unit, value: f64, (lowest, highest): (f64, f64)| {
         // NaN is within nothing.
         if (lowest..=highest).contains(&value) {
             return Ok(());
         }
         Err(CrawlSetupError::Limit {
             quantity,
+            unit,
             value,
             lowest,
             highest,
         })
     };
     let (Ending::Cycles(cycles) | Ending::PastObstacles(cycles)) = experiment.ending;
-    within("a number of cycles of", cycles as f64, CYCLES)?;
+    let (fewest, most) = CrawlExperiment::CYCLES_BOUNDS;
+    let bounds = (fewest as f64, most as f64);
+    within("a crawl", " cycles", cycles as f64, bounds)?;
     if let Some(degrees) = experiment.joint_offset_deg {
-        within("a calibration error of degrees", degrees, OFFSETS_DEG)?;
+        within(
+            "a calibration error",
+            "°",
+            degrees,
+            CrawlExperiment::OFFSET_BOUNDS_DEG,
+        )?;
     }
     if let SteeringChoice::Heading { degrees } = experiment.steering {
-        within("a heading of degrees", degrees, HEADINGS_DEG)?;
+        within(
+            "a heading",
+            "°",
+            degrees,
+            CrawlExperiment::HEADING_BOUNDS_DEG,
+        )?;
     }
     let no_seed = |drawn| Err(CrawlSetupError::NoSeed { drawn });
     match experiment.seed {
@@ -420,15 +435,6 @@ fn check(experiment: &CrawlExperiment) -> Result<(), CrawlSetupError> {
         },
     }
 }
-
-/// Fewest and most cycles of a crawl.
-const CYCLES: (f64, f64) = (1.0, 1000.0);
-
-/// Least and largest calibration error, degrees: a robot with a larger one is broken.
-const OFFSETS_DEG: (f64, f64) = (0.0, 10.0);
-
-/// Headings, degrees from the first one.
-const HEADINGS_DEG: (f64, f64) = (-180.0, 180.0);
 
 /// Shortest and longest engine step, s: contacts are too soft for longer ones.
 const TIME_STEPS: (f64, f64) = (1e-4, 0.005);

@@ -78,10 +78,8 @@ pub(crate) fn contacts(summary: &Summary, numbers: &Numbers) -> Markup {
     html! {
         section {
             h2 { "Which part carries the body when" }
-            p {
-                @if summary.robot.as_ref().is_some_and(|robot| robot.sunk_mm > 0.0) {
-                    (numbers.fill(&Prose::shipped().contacts))
-                }
+            @if summary.robot.as_ref().is_some_and(|robot| robot.sunk_mm > 0.0) {
+                p { (numbers.fill(&Prose::shipped().contacts)) }
             }
             @for story in &summary.contacts { (contact_table(story)) }
         }
@@ -331,10 +329,8 @@ pub(crate) fn mappings(summary: &Summary, numbers: &Numbers) -> Markup {
     html! {
         section {
             h2 { "What the mapping changes" }
-            p {
-                @if summary.robot.as_ref().is_some_and(|robot| robot.published.is_some()) {
-                    (numbers.fill(&Prose::shipped().mappings))
-                }
+            @if summary.robot.as_ref().is_some_and(|robot| robot.published.is_some()) {
+                p { (numbers.fill(&Prose::shipped().mappings)) }
             }
             div.scroll { table {
                 caption { "Cost of the same gait under both mappings, ours, N²·m²·s." }
