@@ -5,7 +5,7 @@ mod export;
 mod named;
 pub(crate) mod optimize;
 pub(crate) mod passage;
-pub(crate) mod pricing;
+pub(crate) mod pull_terms;
 mod report;
 mod torque_map;
 mod view;

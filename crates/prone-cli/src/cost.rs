@@ -1,64 +1,44 @@
 //! `prone cost`.
 
-use std::io::Write as _;
+use std::io::Write;
 
-use anyhow::anyhow;
-
-use prone_record::gait_search::Priced;
-use prone_study::search::candidates::{Depth, Refusal};
-use prone_study::search::pull_cost::{PullAim, PullCosts};
+use prone_record::experiment::{CostExperiment, Experiment, RobotText};
+use prone_record::resumption::Opening;
+use prone_study::run::CostOutcome;
 
 use crate::Failure;
 use crate::args::optimize::CostArgs;
-use crate::pricing::Pricing;
+use crate::plan::{Plan, Work};
+use crate::pull_terms;
 
-pub(crate) fn run(args: &CostArgs) -> Result<(), Failure> {
-    let robot = crate::robot::load(args.pricing.robot.name())?;
-    let gait = crate::gait::find(&robot.files().gaits, args.gait.name())?;
-    let Pricing { world, terms, .. } = Pricing::new(&args.pricing, robot, Some(&gait))?;
-    let (graded, base) = (matches!(terms.aim, PullAim::Graded(_)), &terms.base);
-    if graded && (gait.mapping, gait.arm) != (base.mapping, base.arm) {
-        return Err(Failure::Input(anyhow!(
-            "gait {} has mapping {} and arms {}, but {} of --from has {} and {}: leave out --from, or name a gait of the same kind there",
-            gait.name,
-            gait.mapping.name(),
-            gait.arm.name(),
-            base.name,
-            base.mapping.name(),
-            base.arm.name()
-        )));
-    }
-    let unit = terms.aim.objective().unit();
-    let costs = PullCosts::new(&world, terms).map_err(Failure::input)?;
-    let cost = costs.cost(&gait, Depth::Everything);
-    if let Some(refusal @ Refusal::NotCubic { .. }) = cost.refusal {
-        return Err(Failure::input(refusal));
-    }
-    let price = costs.record(&cost);
-    let mut out = std::io::stdout().lock();
-    if args.json {
-        let text = serde_json::to_string_pretty(&price).map_err(Failure::work)?;
-        writeln!(out, "{text}")?;
-    } else {
-        print(&gait.name, &price, unit, &mut out)?;
-    }
-    Ok(())
+pub(crate) fn plan(args: &CostArgs) -> Result<Plan, Failure> {
+    let files = crate::robot::files(args.terms.robot.name())?;
+    let costed = crate::gait::find(&files.gaits, args.gait.name())?;
+    let experiment = CostExperiment {
+        robot: RobotText::from_files(&files),
+        terms: pull_terms::choice(&args.terms, &files, Some(&costed))?,
+        gait: costed.1,
+    };
+    Ok(Plan {
+        work: Work::Study(Experiment::Cost(Box::new(experiment))),
+        out: None,
+        opening: Opening::Restart,
+        threads: None,
+        json: args.json,
+    })
 }
 
-fn print(
-    gait: &str,
-    price: &Priced,
-    unit: &str,
-    out: &mut impl std::io::Write,
-) -> std::io::Result<()> {
+/// The cost of a pull, and what it breaks.
+pub(crate) fn print(outcome: &CostOutcome, out: &mut dyn Write) -> std::io::Result<()> {
+    let CostOutcome { gait, cost, unit } = outcome;
     let number = |value: Option<f64>| {
         value.map_or_else(|| "not known".to_owned(), |value| format!("{value:.4}"))
     };
-    writeln!(out, "{gait}")?;
-    writeln!(out, "  cost        {}", number(price.cost))?;
-    writeln!(out, "  torque      {} {unit}", number(price.torque))?;
-    writeln!(out, "  violations  {}", trimmed(price.violations))?;
-    for broken in &price.broken {
+    writeln!(out, "{}", gait.name)?;
+    writeln!(out, "  cost        {}", number(cost.cost))?;
+    writeln!(out, "  torque      {} {unit}", number(cost.torque))?;
+    writeln!(out, "  violations  {}", trimmed(cost.violations))?;
+    for broken in &cost.broken {
         writeln!(
             out,
             "    {:<12}{} times, {} in all",

@@ -4,72 +4,56 @@ use std::io::Write;
 
 use anyhow::anyhow;
 
-use prone::regime::Regime;
-use prone_files::defaults::CycleDefaults;
+use prone_files::robot_folder::RobotFiles;
+use prone_record::experiment::{
+    CycleRulesChoice, CycleSearchExperiment, Experiment, GaitText, NamedGait, RobotText, Runs,
+    Under,
+};
 use prone_record::frontier::{CycleObjective, Frontier, SettingKind};
-use prone_record::program::RobotInfo;
-use prone_record::search_plan::{CyclePlan, OnePlan, SearchHead, SearchSolver, UnderPlan};
-use prone_sim::LoadedRobot;
-use prone_study::search::cycles::{CycleGaits, CycleRun, CycleSearchError};
-use prone_study::search::passage::too_low;
 
+use crate::Failure;
 use crate::args::optimize::{OptimizeArgs, SolverName};
 use crate::args::passage::{AgainstName, FrontierArgs};
-use crate::args::pricing::ObjectiveName;
-use crate::search::{self, Carried};
-use crate::{Failure, passage};
+use crate::args::pull_terms::ObjectiveName;
+use crate::gait::find_cycle;
+use crate::plan::{self, Plan, Work};
 
 /// Most evaluations of a run of `prone optimize` where none are asked for.
 const BUDGET: u64 = 1600;
 
 /// `prone crawl frontier`.
-pub(crate) fn frontier(args: &FrontierArgs) -> Result<(), Failure> {
-    let robot = crate::robot::load(args.robot.name())?;
-    let defaults = robot.files().defaults().map_err(Failure::input)?.cycle;
-    let from = names(&args.from, &defaults);
-    for (index, &mm) in args.ceilings_mm.iter().enumerate() {
-        let same = |other: &f64| other.total_cmp(&mm).is_eq();
-        if args.ceilings_mm[..index].iter().any(same) {
-            return Err(Failure::Input(anyhow!("--ceilings-mm has {mm} twice")));
-        }
-        if args.margin_mm >= mm {
-            return Err(passage::no_room("--ceilings-mm", mm, args.margin_mm));
-        }
-        refuse_too_low(&robot, "--ceilings-mm", mm, (mm - args.margin_mm) * 1e-3)?;
-    }
-    let head = head("crawl frontier", args.seed, args.runs, args.budget);
-    let plan = CyclePlan {
+pub(crate) fn frontier(args: &FrontierArgs) -> Result<Plan, Failure> {
+    let files = crate::robot::files(args.robot.name())?;
+    let experiment = CycleSearchExperiment {
         objective: match args.against {
             AgainstName::Advance => CycleObjective::Advance,
             AgainstName::Heat => CycleObjective::Heat,
         },
         steerable: args.steerable,
-        under: UnderPlan::Frontier {
+        under: Under::Ceilings {
             ceilings_mm: args.ceilings_mm.clone(),
             margin_mm: args.margin_mm,
-            from: from.clone(),
         },
-        ..plan(head, &robot)
+        runs: Runs {
+            seed: args.seed,
+            runs: args.runs,
+            budget: args.budget,
+        },
+        ..asked(&files, &args.from)?
     };
-    let gaits = CycleGaits {
-        from: passage::cycles(&robot, &from)?,
-        compared: passage::cycles(&robot, &defaults.compared)?,
-        worst_over: None,
-    };
-    let carried = Carried {
-        out: &args.out,
+    Ok(Plan {
+        work: Work::Study(Experiment::CycleSearch(Box::new(experiment))),
+        out: Some(args.out.clone()),
+        opening: plan::searching(args.resume),
         threads: args.threads,
-        resume: args.resume,
-        time_budget: None,
         json: args.json,
-    };
-    carry_out(&robot, plan, gaits, &carried)
+    })
 }
 
 /// `prone optimize --source cycle`.
-pub(crate) fn optimize(args: &OptimizeArgs) -> Result<(), Failure> {
+pub(crate) fn experiment(args: &OptimizeArgs) -> Result<CycleSearchExperiment, Failure> {
     refuse_options_of_pulls(args)?;
-    let objective = match args.pricing.objective {
+    let objective = match args.terms.objective {
         ObjectiveName::Heat => CycleObjective::Heat,
         ObjectiveName::Advance => CycleObjective::Advance,
         ObjectiveName::Speed => CycleObjective::Speed,
@@ -80,123 +64,84 @@ pub(crate) fn optimize(args: &OptimizeArgs) -> Result<(), Failure> {
             )));
         }
     };
-    let robot = crate::robot::load(args.pricing.robot.name())?;
-    let defaults = robot.files().defaults().map_err(Failure::input)?.cycle;
-    let from = names(args.pricing.from.as_slice(), &defaults);
-    let from = passage::cycles(&robot, &from)?;
-    if let Some(mm) = args.ceiling_mm {
-        refuse_too_low(&robot, "--ceiling-mm", mm, mm * 1e-3)?;
-    }
-    refuse_heats(args, objective)?;
+    let files = crate::robot::files(args.terms.robot.name())?;
     let worst_over = args.worst_over.as_ref();
-    let gaits = CycleGaits {
-        from,
-        compared: passage::cycles(&robot, &defaults.compared)?,
-        worst_over: worst_over
-            .map(|name| passage::find(&robot, name))
-            .transpose()?,
-    };
-    let budget = args.budget.unwrap_or(BUDGET);
-    let plan = CyclePlan {
+    Ok(CycleSearchExperiment {
         objective,
         steerable: args.steerable,
-        under: UnderPlan::One(Box::new(OnePlan {
-            source: args.pricing.source.clone(),
-            ceiling_mm: args.ceiling_mm,
-            least_advance_mm: args.least_advance_mm,
-            demanded_shoulder_nm: args.demanded_shoulder_nm,
-            body_share_percent: args.body_share_percent,
-            worst_over: args.worst_over.clone(),
-            most_heat: args.most_heat,
-            from: String::new(),
+        under: Under::One {
+            rules: CycleRulesChoice {
+                ceiling_mm: args.ceiling_mm,
+                least_advance_mm: args.least_advance_mm,
+                demanded_shoulder_nm: args.demanded_shoulder_nm,
+                body_share_percent: args.body_share_percent,
+                most_heat: args.most_heat,
+            },
+            worst_over: worst_over.map(|name| named(&files, name)).transpose()?,
             name: args.name.clone(),
-        })),
-        ..plan(head("optimize", args.seed, args.runs, budget), &robot)
-    };
-    let carried = Carried {
-        out: &args.out,
-        threads: args.threads,
-        resume: args.resume,
-        time_budget: None,
-        json: args.json,
-    };
-    carry_out(&robot, plan, gaits, &carried)
-}
-
-fn head(command: &str, seed: u64, runs: u64, budget: u64) -> SearchHead {
-    search::head(command, SearchSolver::AboutTheMiddle, seed, runs, budget)
-}
-
-/// A plan that asks for nothing yet.
-fn plan(head: SearchHead, robot: &LoadedRobot) -> CyclePlan {
-    CyclePlan {
-        head,
-        objective: CycleObjective::Advance,
-        steerable: false,
-        under: UnderPlan::Frontier {
-            ceilings_mm: Vec::new(),
-            margin_mm: 0.0,
-            from: Vec::new(),
         },
-        bases: Vec::new(),
-        regime: Regime::LOCOMOTION.name.to_owned(),
-        robot: RobotInfo::of(robot.robot(), robot.files()),
-    }
-}
-
-fn carry_out(
-    robot: &LoadedRobot,
-    plan: CyclePlan,
-    gaits: CycleGaits,
-    carried: &Carried<'_>,
-) -> Result<(), Failure> {
-    let worst_over = match &plan.under {
-        UnderPlan::One(one) => one.worst_over.clone(),
-        UnderPlan::Frontier { .. } => None,
-    };
-    let run = CycleRun::new(robot, plan, gaits).map_err(|error| match (error, worst_over) {
-        (CycleSearchError::WorstOver(error), Some(name)) => {
-            Failure::Input(anyhow!("--worst-over {name}: {error}"))
-        }
-        (error, _) => Failure::input(error),
-    })?;
-    carried.carry_out(&run, |frontier, out| {
-        print(frontier, out)?;
-        writeln!(out, "\nresult: {}", carried.out.display())
+        runs: Runs {
+            seed: args.seed,
+            runs: args.runs,
+            budget: args.budget.unwrap_or(BUDGET),
+        },
+        ..asked(&files, args.terms.from.as_slice())?
     })
 }
 
-/// Heats with several servos are looked at by two objectives only.
-fn refuse_heats(args: &OptimizeArgs, objective: CycleObjective) -> Result<(), Failure> {
-    let several = matches!(objective, CycleObjective::Heat | CycleObjective::Peak);
-    let given = [
-        ("--worst-over", args.worst_over.is_some()),
-        ("--most-heat", args.most_heat.is_some()),
-    ];
-    match given.iter().find(|(_, given)| *given) {
-        Some((option, _)) if !several => Err(Failure::Input(anyhow!(
-            "{option} goes with --objective heat and peak, which alone look at several servos"
-        ))),
-        _ => Ok(()),
-    }
+/// A search about cycles, those of the robot's `[defaults]` where none are named.
+fn asked(files: &RobotFiles, from: &[String]) -> Result<CycleSearchExperiment, Failure> {
+    let defaults = files.defaults().map_err(Failure::input)?.cycle;
+    let from = if from.is_empty() {
+        &defaults.from
+    } else {
+        from
+    };
+    let from = from.iter().map(|name| named(files, name));
+    let compared = defaults.compared.iter().map(|name| text(files, name));
+    Ok(CycleSearchExperiment {
+        robot: RobotText::from_files(files),
+        objective: CycleObjective::Advance,
+        steerable: false,
+        under: Under::Ceilings {
+            ceilings_mm: Vec::new(),
+            margin_mm: 0.0,
+        },
+        from: from.collect::<Result<_, _>>()?,
+        compared: compared.collect::<Result<_, _>>()?,
+        runs: Runs {
+            seed: 0,
+            runs: 1,
+            budget: BUDGET,
+        },
+    })
 }
 
-/// What says how pulls are priced says nothing of cycles.
+fn named(files: &RobotFiles, name: &str) -> Result<NamedGait, Failure> {
+    Ok(NamedGait {
+        called: name.to_owned(),
+        gait: text(files, name)?,
+    })
+}
+
+fn text(files: &RobotFiles, name: &str) -> Result<GaitText, Failure> {
+    let source = find_cycle(&files.gaits, name)?;
+    Ok(GaitText::new(&source.file, &source.text))
+}
+
+/// What says how pulls are costed says nothing of cycles.
 fn refuse_options_of_pulls(args: &OptimizeArgs) -> Result<(), Failure> {
-    let pricing = &args.pricing;
+    let terms = &args.terms;
     let given = [
-        ("--weights", pricing.weights.is_some()),
-        ("--per", pricing.per.is_some()),
-        ("--duration", pricing.duration.is_some()),
-        ("--rate-deg-per-phase", pricing.rate_deg_per_phase.is_some()),
-        ("--clearance", pricing.clearance.is_some()),
-        ("--limits", pricing.limits.is_some()),
-        ("--body-share-of", pricing.body_share_of.is_some()),
-        ("--hip-threshold-mm", pricing.hip_threshold_mm.is_some()),
-        (
-            "--limit-tolerance-rad",
-            pricing.limit_tolerance_rad.is_some(),
-        ),
+        ("--weights", terms.weights.is_some()),
+        ("--per", terms.per.is_some()),
+        ("--duration", terms.duration.is_some()),
+        ("--rate-deg-per-phase", terms.rate_deg_per_phase.is_some()),
+        ("--clearance", terms.clearance.is_some()),
+        ("--limits", terms.limits.is_some()),
+        ("--body-share-of", terms.body_share_of.is_some()),
+        ("--hip-threshold-mm", terms.hip_threshold_mm.is_some()),
+        ("--limit-tolerance-rad", terms.limit_tolerance_rad.is_some()),
         ("--time-budget", args.time_budget.is_some()),
         (
             "--solver",
@@ -211,30 +156,8 @@ fn refuse_options_of_pulls(args: &OptimizeArgs) -> Result<(), Failure> {
     }
 }
 
-fn names<T: AsRef<[String]>>(given: T, defaults: &CycleDefaults) -> Vec<String> {
-    match given.as_ref() {
-        [] => defaults.from.clone(),
-        given => given.to_vec(),
-    }
-}
-
-/// A search under a ceiling that no gait of the robot fits under would find nothing.
-fn refuse_too_low(
-    robot: &LoadedRobot,
-    option: &str,
-    ceiling_mm: f64,
-    height: f64,
-) -> Result<(), Failure> {
-    match too_low(robot.robot(), height) {
-        None => Ok(()),
-        Some(reason) => Err(Failure::Input(anyhow!(
-            "{option} {ceiling_mm} is too low for {}: {reason}",
-            robot.robot().name
-        ))),
-    }
-}
-
-fn print(frontier: &Frontier, out: &mut dyn Write) -> std::io::Result<()> {
+/// What was found, under each ceiling.
+pub(crate) fn print(frontier: &Frontier, out: &mut dyn Write) -> std::io::Result<()> {
     if frontier.found.is_empty() {
         writeln!(
             out,

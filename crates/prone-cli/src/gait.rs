@@ -8,12 +8,12 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 
 use prone::gait::{Gait, PhaseDuration};
-use prone::mapping::{ArmMode, MappingVariant};
 use prone::robot::Robot;
 use prone_files::gait_text::GaitText;
 use prone_files::gaits::Gaits;
 use prone_files::text_file::ReadError;
 use prone_files::{cycle_file, gait_file, shipped, text_file};
+use prone_record::experiment::TextFile;
 use prone_record::single_file;
 use prone_sim::LoadedRobot;
 use prone_study::crawl::GaitSource;
@@ -25,8 +25,8 @@ use crate::args::GaitShowArgs;
 /// Every how many of the 101 instants one is printed.
 const PRINTED_EVERY: usize = 10;
 
-/// A pull by name, of the robot's own or of what ships, or the pull of a file.
-pub(crate) fn find(gaits: &Gaits, name: &str) -> Result<Gait, Failure> {
+/// A pull by name, of the robot's own or of what ships, or the pull of a file; with its text.
+pub(crate) fn find(gaits: &Gaits, name: &str) -> Result<(Gait, TextFile), Failure> {
     let named = gaits.find(name).map_err(Failure::input)?;
     let gait = match named.filter(|gait| !gait.is_cycle()) {
         Some(gait) => gait,
@@ -36,7 +36,9 @@ pub(crate) fn find(gaits: &Gaits, name: &str) -> Result<Gait, Failure> {
             unknown("gait", name, gaits, own, &shipped)
         })?,
     };
-    gait_file::parse(&gait.file, &gait.text).map_err(Failure::input)
+    let text = TextFile::new(&gait.file, &gait.text);
+    let gait = gait_file::parse(&gait.file, &gait.text).map_err(Failure::input)?;
+    Ok((gait, text))
 }
 
 /// A cycle by name, of the robot's own or of what ships, or the cycle of a file; with the text of its
@@ -120,19 +122,6 @@ fn by_kind(pulls: &str, cycles: &str) -> String {
     kinds.join("; ")
 }
 
-/// Whether a robot has what a gait's mapping and arms need.
-pub(crate) fn can_follow(robot: &Robot, gait: &Gait) -> bool {
-    let mapped = match gait.mapping {
-        MappingVariant::Original => robot.chain.published.is_some(),
-        MappingVariant::Exact => true,
-    };
-    let armed = match gait.arm {
-        ArmMode::Fixed => robot.chain.fixed_arm.is_some(),
-        ArmMode::FlatForearm => true,
-    };
-    mapped && armed
-}
-
 /// A pull's duration where none is asked for, s.
 const DURATION_S: f64 = 5.0;
 
@@ -147,7 +136,7 @@ pub(crate) fn show(args: &GaitShowArgs) -> Result<(), Failure> {
     if named.map_or_else(|| is_cycle_file(name), |gait| gait.is_cycle()) {
         return cycle::show(args, &loaded);
     }
-    let gait = find(gaits, name)?;
+    let (gait, _) = find(gaits, name)?;
     let duration = match args.duration {
         Some(duration) => duration,
         None => PhaseDuration::new(DURATION_S).map_err(Failure::input)?,

@@ -5,8 +5,6 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use anyhow::anyhow;
 
-use prone_study::watch::{Progress, Watch};
-
 use crate::Failure;
 use crate::failure::STOPPED;
 
@@ -46,33 +44,26 @@ pub(crate) fn listen() -> Result<(), Failure> {
     }
 }
 
-/// Looks on at an experiment, and stops it where a signal asks for that.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Interrupted;
-
-impl Watch for Interrupted {
-    fn stop(&self) -> bool {
-        requested()
-    }
-
-    fn progress(&self, _: &Progress<'_>) {}
-}
-
 /// Whether the work is to end.
 pub(crate) fn requested() -> bool {
     *state() == State::Stopping
 }
 
-/// Does what is not to be stopped halfway, unless the work is to end.
-pub(crate) fn publish(put_in_place: impl FnOnce() -> Result<(), Failure>) -> Result<(), Failure> {
+/// Does what is not to be stopped halfway; `None` if the work is to end.
+pub(crate) fn uninterrupted<T>(work: impl FnOnce() -> T) -> Option<T> {
     {
         let mut state = state();
         if *state == State::Stopping {
-            return Err(Failure::Stopped);
+            return None;
         }
         *state = State::Publishing;
     }
-    let done = put_in_place();
+    let done = work();
     *state() = State::Done;
-    done
+    Some(done)
+}
+
+/// Puts a result in place, unless the work is to end.
+pub(crate) fn publish(put_in_place: impl FnOnce() -> Result<(), Failure>) -> Result<(), Failure> {
+    uninterrupted(put_in_place).unwrap_or(Err(Failure::Stopped))
 }

@@ -5,23 +5,24 @@
 //! was cut off), 130 stopped by the user.
 
 mod args;
-mod checkpoint;
 mod cost;
 mod crawl;
 mod cycle_search;
+mod dispatch;
 mod export;
 mod failure;
 mod gait;
 mod interrupt;
 mod optimize;
 mod passage;
-mod pricing;
+mod plan;
 mod progress;
+mod pull_terms;
 mod record_folder;
+mod refusal;
 mod report;
 mod reproduce;
 mod robot;
-mod search;
 mod torque_map;
 mod view;
 
@@ -30,29 +31,35 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser};
 
-use args::{Args, Command, GaitCommand, RobotCommand};
+use args::{Args, Command, GaitCommand, RobotCommand, TorqueMapCommand};
 use failure::Failure;
 use prone_record::program::Program;
 
 fn main() -> ExitCode {
-    let args = Args::parse();
-    let done = match args.command {
-        Command::Reproduce(args) => reproduce::run(&args),
-        Command::Crawl(command) => crawl::run(&command),
+    match run(Args::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(),
+    }
+}
+
+fn run(args: Args) -> Result<(), Failure> {
+    match args.command {
+        Command::Reproduce(args) => dispatch::carry_out(&reproduce::plan(&args)?),
+        Command::Crawl(command) => dispatch::carry_out(&crawl::plan(&command)?),
         Command::Export(args) => export::run(&args),
-        Command::Optimize(args) => optimize::run(&args),
-        Command::Cost(args) => cost::run(&args),
+        Command::Optimize(args) => dispatch::carry_out(&optimize::plan(&args)?),
+        Command::Cost(args) => dispatch::carry_out(&cost::plan(&args)?),
         Command::Gait(GaitCommand::Show(args)) => gait::show(&args),
         Command::Robot(RobotCommand::Check(args)) => robot::check(&args),
         Command::Robot(RobotCommand::Compile(args)) => robot::compile::run(&args),
         Command::Report(args) => report::run(&args),
-        Command::TorqueMap(command) => torque_map::run(&command),
+        Command::TorqueMap(TorqueMapCommand::Build(args)) => {
+            dispatch::carry_out(&torque_map::build::plan(&args)?)
+        }
+        Command::TorqueMap(TorqueMapCommand::Compare(args)) => torque_map::compare::run(&args),
+        Command::TorqueMap(TorqueMapCommand::Plot(args)) => torque_map::plot::run(&args),
         Command::View(args) => view::run(&args),
         Command::Completions { shell } => completions(shell),
-    };
-    match done {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => failure.report(),
     }
 }
 

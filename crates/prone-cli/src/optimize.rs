@@ -4,81 +4,71 @@ use std::io::Write;
 
 use anyhow::anyhow;
 
-use prone::gait::Gait;
 use prone::regime::Regime;
+use prone_record::experiment::{
+    Ends, Experiment, PullSearchExperiment, RobotText, Runs, TorqueChoice,
+};
 use prone_record::gait_search::Outcome;
-use prone_record::search_plan::SearchSolver;
-use prone_study::search::pull_cost::{PullAim, PullCosts, Source};
-use prone_study::search::pull_form::{Ends, GaitForm, PullForm};
-use prone_study::search::pulls::{PullConfirmation, PullRun};
+use prone_record::search::Solver;
 
-use crate::Failure;
 use crate::args::optimize::{EndsName, OptimizeArgs, SolverName};
-use crate::pricing::Pricing;
-use crate::search::{self, Carried};
+use crate::plan::{self, Plan, Work};
+use crate::{Failure, cycle_search, pull_terms};
 
 /// Evaluations of a run where none are asked for.
 const BUDGET: u64 = 100_000;
 /// The same where each is a simulation.
 const DYNAMIC_BUDGET: u64 = 3_000;
 
-pub(crate) fn run(args: &OptimizeArgs) -> Result<(), Failure> {
-    if args.pricing.source == "cycle" {
-        return crate::cycle_search::optimize(args);
-    }
-    refuse_cycle_options(args)?;
-    let robot = crate::robot::load(args.pricing.robot.name())?;
-    let Pricing {
-        robot,
-        world,
-        terms,
-    } = Pricing::new(&args.pricing, robot, None)?;
-    check_form(args, terms.aim)?;
-    let defaults = robot.files().defaults().map_err(Failure::input)?.pull;
-    let name = gait_name(args);
-    check_name(&name, &terms.base, &defaults.compared)?;
-    // The base gait first, then those that the robot's `[defaults]` name and it can follow.
-    let mut compared = vec![terms.base.clone()];
-    for name in &defaults.compared {
-        let gait = crate::gait::find(&robot.files().gaits, name)?;
-        let twice = compared.iter().any(|other| other.name == gait.name);
-        if !twice && crate::gait::can_follow(robot.robot(), &gait) {
-            compared.push(gait);
-        }
-    }
-    let budget = match terms.source {
-        Source::Dynamics => DYNAMIC_BUDGET,
-        Source::Statics | Source::Map { .. } => BUDGET,
+pub(crate) fn plan(args: &OptimizeArgs) -> Result<Plan, Failure> {
+    let experiment = if args.terms.source == "cycle" {
+        Experiment::CycleSearch(Box::new(cycle_search::experiment(args)?))
+    } else {
+        Experiment::PullSearch(Box::new(experiment(args)?))
     };
-    let ends = match args.ends {
-        EndsName::Fixed => Ends::Fixed,
-        EndsName::Free => Ends::Free,
-    };
-    let solver = match args.solver {
-        SolverName::De => SearchSolver::DifferentialEvolution,
-        SolverName::CmaEs => SearchSolver::CovarianceMatrix,
-        SolverName::Ga => SearchSolver::Genetic,
-    };
-    let budget = args.budget.unwrap_or(budget);
-    let costs = PullCosts::new(&world, terms).map_err(Failure::input)?;
-    let form = PullForm::new(args.gait_form, ends, &costs.terms().base).map_err(Failure::input)?;
-    let confirmation = PullConfirmation {
-        name,
-        compared,
-        durations: args.confirm_durations.clone(),
-    };
-    let head = search::head("optimize", solver, args.seed, args.runs, budget);
-    let run = PullRun::new(&robot, costs, form, confirmation, head).map_err(Failure::input)?;
-    let carried = Carried {
-        out: &args.out,
+    Ok(Plan {
+        work: Work::Study(experiment),
+        out: Some(args.out.clone()),
+        opening: plan::searching(args.resume),
         threads: args.threads,
-        resume: args.resume,
-        time_budget: args.time_budget,
         json: args.json,
+    })
+}
+
+fn experiment(args: &OptimizeArgs) -> Result<PullSearchExperiment, Failure> {
+    refuse_cycle_options(args)?;
+    let files = crate::robot::files(args.terms.robot.name())?;
+    let terms = pull_terms::choice(&args.terms, &files, None)?;
+    let compared = files.defaults().map_err(Failure::input)?.pull.compared;
+    let compared = compared.iter();
+    let compared = compared.map(|name| Ok(crate::gait::find(&files.gaits, name)?.1));
+    let budget = match terms.source {
+        TorqueChoice::Dynamics { .. } => DYNAMIC_BUDGET,
+        TorqueChoice::Statics | TorqueChoice::Map(_) => BUDGET,
     };
-    carried.carry_out(&run, |outcome, out| {
-        print(outcome, out)?;
-        writeln!(out, "\ngait: {}", args.out.join("gait.toml").display())
+    let durations = args.confirm_durations.iter();
+    Ok(PullSearchExperiment {
+        robot: RobotText::from_files(&files),
+        terms,
+        form: args.gait_form,
+        ends: match args.ends {
+            EndsName::Fixed => Ends::Fixed,
+            EndsName::Free => Ends::Free,
+        },
+        solver: match args.solver {
+            SolverName::De => Solver::DifferentialEvolution,
+            SolverName::CmaEs => Solver::CovarianceMatrix,
+            SolverName::Ga => Solver::Genetic,
+        },
+        runs: Runs {
+            seed: args.seed,
+            runs: args.runs,
+            budget: args.budget.unwrap_or(budget),
+        },
+        time_budget_s: args.time_budget,
+        name: gait_name(args),
+        compared: compared.collect::<Result<_, Failure>>()?,
+        confirm_durations_s: durations.map(|it| it.seconds()).collect(),
     })
 }
 
@@ -104,34 +94,13 @@ fn refuse_cycle_options(args: &OptimizeArgs) -> Result<(), Failure> {
     }
 }
 
-/// The published problem is one of six coefficients.
-fn check_form(args: &OptimizeArgs, aim: PullAim) -> Result<(), Failure> {
-    let published = matches!(aim, PullAim::Published(_));
-    if published && (args.gait_form != GaitForm::Cubic || args.ends == EndsName::Free) {
-        return Err(Failure::Input(anyhow!(
-            "--objective published prices cubics with fixed ends only: leave out --gait-form and --ends"
-        )));
-    }
-    Ok(())
-}
-
-/// The confirmation tells gaits apart by their names.
-fn check_name(name: &str, base: &Gait, compared: &[String]) -> Result<(), Failure> {
-    if name == base.name || compared.iter().any(|other| other == name) {
-        return Err(Failure::Input(anyhow!(
-            "the found gait would be called {name:?}, like one that it is compared with: give it another --name"
-        )));
-    }
-    Ok(())
-}
-
 fn gait_name(args: &OptimizeArgs) -> String {
-    let default = || format!("best-{}", args.pricing.objective.name());
+    let default = || format!("best-{}", args.terms.objective.name());
     args.name.clone().unwrap_or_else(default)
 }
 
 /// A table of the runs, what was found beside others, and what simulation says.
-fn print(outcome: &Outcome, out: &mut dyn Write) -> std::io::Result<()> {
+pub(crate) fn print(outcome: &Outcome, out: &mut dyn Write) -> std::io::Result<()> {
     let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |v| format!("{v:.4}"));
     writeln!(
         out,

@@ -1,12 +1,12 @@
 //! A progress bar on a terminal, silence elsewhere.
 
 use std::io::Write as _;
-use std::path::PathBuf;
+use std::path::Path;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
 use prone_record::search::Search;
-use prone_study::watch::{self, Watch};
+use prone_study::watch::{self, Found, Watch};
 
 use crate::Failure;
 use crate::interrupt;
@@ -19,59 +19,26 @@ const SEARCH: &str = "searching {bar:30} {pos}/{len} evaluations  {elapsed}, {et
 /// Progress of any work; Ctrl-C ends it.
 pub(crate) struct Progress {
     bar: ProgressBar,
-    styles: Styles,
-    /// What is done once all steps are.
-    then: Option<&'static str>,
-    /// Where earlier steps would come from.
-    journal: PathBuf,
-}
-
-struct Styles {
     steps: ProgressStyle,
     search: ProgressStyle,
 }
 
 impl Progress {
-    /// Shows simulations, and drawing after them.
-    pub(crate) fn simulating(phases: usize) -> Result<Self, Failure> {
-        let progress = Self::new(phases, "simulating")?;
-        let then = Some("drawing");
-        Ok(Self { then, ..progress })
-    }
-
-    /// Shows rows of a torque map; `journal` is where earlier ones would come from.
-    pub(crate) fn measuring(rows: usize, journal: PathBuf) -> Result<Self, Failure> {
-        let progress = Self::new(rows, "measuring")?;
+    /// Shows nothing until work begins.
+    pub(crate) fn new() -> Result<Self, Failure> {
+        let style = |template| ProgressStyle::with_template(template).map_err(Failure::work);
+        // indicatif draws on standard error, and only if that is a terminal.
         Ok(Self {
-            journal,
-            ..progress
+            bar: ProgressBar::new(0),
+            steps: style(STEPS)?,
+            search: style(SEARCH)?,
         })
     }
 
     /// Shows pictures of a film.
     pub(crate) fn filming(pictures: usize) -> Result<Self, Failure> {
-        Self::new(pictures, "filming")
-    }
-
-    /// Shows a search, and simulations after it.
-    pub(crate) fn searching() -> Result<Self, Failure> {
-        Self::simulating(0)
-    }
-
-    fn new(steps: usize, message: &'static str) -> Result<Self, Failure> {
-        let style = |template| ProgressStyle::with_template(template).map_err(Failure::work);
-        let styles = Styles {
-            steps: style(STEPS)?,
-            search: style(SEARCH)?,
-        };
-        // indicatif draws on standard error, and only if that is a terminal.
-        let progress = Self {
-            bar: ProgressBar::new(0),
-            styles,
-            then: None,
-            journal: PathBuf::new(),
-        };
-        progress.begin(steps, message);
+        let progress = Self::new()?;
+        progress.begin(pictures, "filming");
         Ok(progress)
     }
 
@@ -81,7 +48,7 @@ impl Progress {
     }
 
     fn begin(&self, steps: usize, message: &'static str) {
-        self.bar.set_style(self.styles.steps.clone());
+        self.bar.set_style(self.steps.clone());
         self.bar.set_length(steps as u64);
         self.bar.set_position(0);
         self.bar.set_message(message);
@@ -91,7 +58,7 @@ impl Progress {
     /// After a generation, or before the first one.
     fn searched(&self, search: &Search) {
         if self.bar.length() != Some(search.allowance()) || self.bar.position() == 0 {
-            self.bar.set_style(self.styles.search.clone());
+            self.bar.set_style(self.search.clone());
             self.bar.set_length(search.allowance());
             self.bar.set_position(search.evaluations());
             self.bar.reset_eta();
@@ -106,19 +73,41 @@ impl Progress {
         }
     }
 
-    fn taken_over(&self, rows: usize) {
-        if rows > 0 {
-            let all = self.bar.length().unwrap_or(0);
-            let journal = self.journal.display();
-            // Where nobody listens, the work goes on. The bar steps aside meanwhile.
-            self.bar.suspend(|| {
-                let _ = writeln!(
-                    std::io::stderr(),
-                    "{rows} of {all} rows taken over from {journal}"
-                );
-            });
+    /// Where nobody listens, the work goes on. The bar steps aside meanwhile.
+    fn say(&self, message: &str) {
+        self.bar.suspend(|| {
+            let _ = writeln!(std::io::stderr(), "{message}");
+        });
+    }
+
+    fn measuring(&self, rows: usize, taken_over: usize, journal: Option<&Path>) {
+        self.begin(rows, "measuring");
+        if let (Some(journal), true) = (journal, taken_over > 0) {
+            let journal = journal.display();
+            self.say(&format!(
+                "{taken_over} of {rows} rows taken over from {journal}"
+            ));
         }
-        self.bar.set_position(rows as u64);
+        self.bar.set_position(taken_over as u64);
+    }
+
+    fn found(&self, checkpoint: &Path, found: Found) {
+        let path = checkpoint.display();
+        self.say(&match found {
+            Found::Nothing => format!("no search is kept in {path}: starting from the beginning"),
+            Found::Torn => {
+                format!("{path} breaks off before its search is whole: starting from the beginning")
+            }
+            Found::Replaced => format!(
+                "replacing {path}, which an earlier search has left: --resume goes on from there"
+            ),
+            Found::ReplacedOther => {
+                format!("replacing {path}, which another version of prone has left")
+            }
+            Found::Evaluations(evaluations) => {
+                format!("going on after {evaluations} evaluations")
+            }
+        });
     }
 }
 
@@ -127,16 +116,25 @@ impl Watch for Progress {
         interrupt::requested()
     }
 
+    fn publish(&self, put_in_place: &mut dyn FnMut()) -> bool {
+        interrupt::uninterrupted(put_in_place).is_some()
+    }
+
     fn progress(&self, progress: &watch::Progress<'_>) {
         match *progress {
             watch::Progress::Simulating(steps) => self.begin(steps, "simulating"),
+            watch::Progress::Measuring {
+                rows,
+                taken_over,
+                journal,
+            } => self.measuring(rows, taken_over, journal),
             watch::Progress::Searching(search) => self.searched(search),
-            watch::Progress::TakenOver(steps) => self.taken_over(steps),
+            watch::Progress::Found(checkpoint, found) => self.found(checkpoint, found),
             watch::Progress::Done(steps) => {
                 self.bar.inc(steps as u64);
                 let all = self.bar.position() == self.bar.length().unwrap_or(0);
-                if let (true, Some(then)) = (all, self.then) {
-                    self.bar.set_message(then);
+                if all && self.bar.message() == "simulating" {
+                    self.bar.set_message("drawing");
                     self.bar.tick();
                 }
             }

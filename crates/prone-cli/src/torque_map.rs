@@ -1,8 +1,8 @@
 //! `prone torque-map`: build, compare, plot.
 
-mod build;
-mod compare;
-mod plot;
+pub(crate) mod build;
+pub(crate) mod compare;
+pub(crate) mod plot;
 
 use std::path::Path;
 
@@ -12,18 +12,9 @@ use prone::torque_map::{RecordedMap, parse_recorded};
 use prone_files::text_file;
 
 use crate::Failure;
-use crate::args::TorqueMapCommand;
 
 /// The largest map that is read; the largest that is built has 50 MB.
 const LARGEST_MAP_BYTES: u64 = 64 << 20;
-
-pub(crate) fn run(command: &TorqueMapCommand) -> Result<(), Failure> {
-    match command {
-        TorqueMapCommand::Build(args) => build::run(args),
-        TorqueMapCommand::Compare(args) => compare::run(args),
-        TorqueMapCommand::Plot(args) => plot::run(args),
-    }
-}
 
 /// The text of a map's file.
 pub(crate) fn text(path: &Path) -> Result<String, Failure> {

@@ -4,15 +4,27 @@
 //! Names, units and bounds are those of the command line; what a text holds is only known when an
 //! experiment is run.
 
+mod cost;
 mod crawl;
 mod passage;
+mod search;
 mod source;
+mod torque_map;
 
+pub use cost::{
+    BodyShareOf, ClearanceChoice, CostExperiment, LimitsChoice, PullCostChoice, PullObjective,
+    PullRules, Share, TorqueChoice,
+};
 pub use crawl::{
     CrawlExperiment, Detail, Ending, PullExperiment, SceneChoice, ServoChoice, SteeringChoice,
 };
 pub use passage::{PassageCycle, PassageExperiment, PassageSearch};
-pub use source::{ChangedText, GaitText, RobotText, SceneText};
+pub use search::{
+    CycleRulesChoice, CycleSearchExperiment, Ends, GaitForm, NamedGait, PullSearchExperiment, Runs,
+    Under,
+};
+pub use source::{ChangedText, GaitText, RobotText, SceneText, TextError, TextFile};
+pub use torque_map::{MapSource, TorqueMapExperiment};
 
 use serde::{Deserialize, Serialize};
 
@@ -26,6 +38,15 @@ pub enum Experiment {
     Crawl(Box<CrawlExperiment>),
     /// Whether a robot gets under a ceiling.
     Passage(Box<PassageExperiment>),
+    /// What a pull costs.
+    Cost(Box<CostExperiment>),
+    /// Pulls that cost least: `prone optimize`.
+    PullSearch(Box<PullSearchExperiment>),
+    /// Cycles that cost least, under one ceiling or none (`prone optimize --source cycle`) or under
+    /// several (`prone crawl frontier`).
+    CycleSearch(Box<CycleSearchExperiment>),
+    /// A torque map.
+    TorqueMap(Box<TorqueMapExperiment>),
 }
 
 impl Experiment {
@@ -35,6 +56,10 @@ impl Experiment {
             Self::Pull(it) => &it.robot,
             Self::Crawl(it) => &it.robot,
             Self::Passage(it) => &it.robot,
+            Self::Cost(it) => &it.robot,
+            Self::PullSearch(it) => &it.robot,
+            Self::CycleSearch(it) => &it.robot,
+            Self::TorqueMap(it) => &it.robot,
         }
     }
 }

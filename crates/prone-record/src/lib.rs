@@ -24,6 +24,7 @@ pub mod recorded;
 pub mod resumption;
 pub mod search;
 pub mod search_plan;
+pub mod search_result;
 pub mod single_file;
 pub mod statistics;
 pub mod tables;

@@ -13,7 +13,7 @@ pub const JOINTS: [&str; 4] = ["ankle", "knee", "hip", "shoulder"];
 pub const CHAIN_POINTS: [&str; 6] = ["toe", "ankle", "knee", "hip", "shoulder", "elbow"];
 
 /// One closed-chain phase of one gait in simulation.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PullRecord {
     /// Name of the gait.
     pub gait: String,
@@ -24,7 +24,7 @@ pub struct PullRecord {
 }
 
 /// One control step of a pull.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PullRow {
     /// End of the step, s since the phase began.
     pub time_s: f64,

@@ -14,16 +14,22 @@ use prone_optim::{
 };
 use serde::{Deserialize, Serialize};
 
-/// Which solver searches.
+/// Which solver searches, and from where.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
 pub enum Solver {
     /// The default.
+    #[serde(rename = "differential-evolution")]
     DifferentialEvolution,
-    /// The independent check.
+    /// CMA-ES: the independent check.
+    #[serde(rename = "cma-es")]
     CovarianceMatrix,
     /// The published search, with MATLAB's defaults.
+    #[serde(rename = "genetic")]
     Genetic,
+    /// CMA-ES from about the middle of the bounds, where a good point is known: narrow first steps,
+    /// and no larger populations, which would look far away.
+    #[serde(rename = "cma-es, about the middle")]
+    AboutTheMiddle,
 }
 
 impl Solver {
@@ -33,6 +39,7 @@ impl Solver {
             Self::DifferentialEvolution => "differential-evolution",
             Self::CovarianceMatrix => "cma-es",
             Self::Genetic => "genetic",
+            Self::AboutTheMiddle => "cma-es, about the middle",
         }
     }
 }
@@ -97,23 +104,6 @@ impl Search {
             budget,
             runs: (0..runs).map(|k| begin(seed.wrapping_add(k))).collect(),
         }
-    }
-
-    /// The same by CMA-ES from about the middle of the bounds, where a good point is known: narrow
-    /// first steps, and no larger populations, which would look far away.
-    pub fn about_the_middle(seed: u64, runs: u64, budget: u64) -> Self {
-        let options = CovarianceMatrixOptions {
-            population: 16,
-            doublings: 0,
-            step: 0.12,
-            middle: 0.2,
-            ..CovarianceMatrixOptions::default()
-        };
-        let mut search = Self::new(Solver::CovarianceMatrix, seed, runs, budget);
-        for run in &mut search.runs {
-            run.state = State::CovarianceMatrix(Run::new(CovarianceMatrix::new(options, run.seed)));
-        }
-        search
     }
 
     /// Allows each run more evaluations: those that ended for want of them go on, to what a search
@@ -233,6 +223,16 @@ impl State {
             }
             Solver::CovarianceMatrix => {
                 let options = CovarianceMatrixOptions::default();
+                Self::CovarianceMatrix(Run::new(CovarianceMatrix::new(options, seed)))
+            }
+            Solver::AboutTheMiddle => {
+                let options = CovarianceMatrixOptions {
+                    population: 16,
+                    doublings: 0,
+                    step: 0.12,
+                    middle: 0.2,
+                    ..CovarianceMatrixOptions::default()
+                };
                 Self::CovarianceMatrix(Run::new(CovarianceMatrix::new(options, seed)))
             }
             Solver::Genetic => {

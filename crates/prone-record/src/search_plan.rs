@@ -9,8 +9,11 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::Value;
 
+use prone_files::text_file;
+
+use crate::experiment::{CycleRulesChoice, Runs};
 use crate::frontier::CycleObjective;
-use crate::program::RobotInfo;
+use crate::program::{Program, RobotInfo};
 use crate::search::{Search, Solver};
 
 /// The plan of a search.
@@ -51,7 +54,7 @@ pub struct SearchHead {
     /// The command.
     pub command: String,
     /// The optimiser.
-    pub solver: SearchSolver,
+    pub solver: Solver,
     /// Seed of the first run; the others follow.
     pub seed: u64,
     /// Independent runs.
@@ -63,23 +66,6 @@ pub struct SearchHead {
     /// Hashes of the gaits that are searched about, by their names.
     #[serde(default)]
     pub base_sha256: BTreeMap<String, String>,
-}
-
-/// The optimiser and where it begins.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum SearchSolver {
-    /// Differential evolution.
-    #[serde(rename = "differential-evolution")]
-    DifferentialEvolution,
-    /// CMA-ES.
-    #[serde(rename = "cma-es")]
-    CovarianceMatrix,
-    /// The published search.
-    #[serde(rename = "genetic")]
-    Genetic,
-    /// CMA-ES about the middle of the bounds, where a good point is known.
-    #[serde(rename = "cma-es, about the middle")]
-    AboutTheMiddle,
 }
 
 /// A search of pulls.
@@ -231,18 +217,11 @@ pub enum UnderPlan {
 pub struct OnePlan {
     /// `cycle`.
     pub source: String,
-    /// Height below which everything stays, mm.
-    pub ceiling_mm: Option<f64>,
-    /// Least advance per cycle, mm; the usual one is filled in once the search is prepared.
-    pub least_advance_mm: Option<f64>,
-    /// Largest torque that a shoulder's servo may demand, N·m.
-    pub demanded_shoulder_nm: Option<f64>,
-    /// Largest share of the weight on trunk and legs.
-    pub body_share_percent: Option<f64>,
+    /// The rules, with the usual least advance where none was asked for.
+    #[serde(flatten)]
+    pub rules: CycleRulesChoice,
     /// The cycle over whose heats those found are.
     pub worst_over: Option<String>,
-    /// Largest heat.
-    pub most_heat: Option<f64>,
     /// The cycle that is searched about; known once the search is prepared.
     pub from: String,
     /// Name of the found cycle, where the user gave one; else it is called after the objective.
@@ -272,28 +251,37 @@ impl SearchPlan {
 }
 
 impl SearchHead {
-    /// A search that has not begun.
-    pub fn new_search(&self) -> Search {
-        let (seed, runs, budget) = (self.seed, self.runs, self.budget.unwrap_or(0));
-        let new = |solver| Search::new(solver, seed, runs, budget);
-        match self.solver {
-            SearchSolver::DifferentialEvolution => new(Solver::DifferentialEvolution),
-            SearchSolver::CovarianceMatrix => new(Solver::CovarianceMatrix),
-            SearchSolver::Genetic => new(Solver::Genetic),
-            SearchSolver::AboutTheMiddle => Search::about_the_middle(seed, runs, budget),
+    /// What a search says that has not been prepared.
+    pub fn new(
+        program: &Program,
+        command: &str,
+        engine: String,
+        solver: Solver,
+        runs: Runs,
+    ) -> Self {
+        Self {
+            program: "prone".to_owned(),
+            version: program.version.to_string(),
+            commit: program.commit.to_string(),
+            engine,
+            command: command.to_owned(),
+            solver,
+            seed: runs.seed,
+            runs: runs.runs,
+            budget: Some(runs.budget),
+            base_sha256: BTreeMap::new(),
         }
     }
-}
 
-impl SearchSolver {
-    /// Name in files and records.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::DifferentialEvolution => Solver::DifferentialEvolution.name(),
-            Self::CovarianceMatrix => Solver::CovarianceMatrix.name(),
-            Self::Genetic => Solver::Genetic.name(),
-            Self::AboutTheMiddle => "cma-es, about the middle",
-        }
+    /// Adds a gait that is searched about, with the hash of its text.
+    pub fn add_base(&mut self, name: &str, text: &str) {
+        self.base_sha256
+            .insert(name.to_owned(), text_file::sha256(&[text]));
+    }
+
+    /// A search that has not begun.
+    pub fn new_search(&self) -> Search {
+        Search::new(self.solver, self.seed, self.runs, self.budget.unwrap_or(0))
     }
 }
 

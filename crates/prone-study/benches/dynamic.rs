@@ -8,8 +8,9 @@ use prone::regime::Regime;
 use prone_files::shipped;
 use prone_sim::{LoadedRobot, RobotFiles, World};
 use prone_study::search::candidates::Depth;
-use prone_study::search::chain_rules::{ChainRules, Clearance};
-use prone_study::search::pull_cost::{PullAim, PullCosts, PullTerms, Share, Source};
+use prone_study::search::chain_rules::ChainRules;
+use prone_study::search::pull_cost::PullCosts;
+use prone_study::search::pull_terms::{PullAim, PullTerms, Share, Source};
 
 fn main() {
     divan::main();
@@ -30,11 +31,7 @@ fn costs(world: &World, source: Source) -> PullCosts {
         source,
         base: nominal(),
         share: Share::Phase,
-        rules: ChainRules {
-            rate: f64::INFINITY,
-            clearance: Clearance::Free,
-            stops: None,
-        },
+        rules: ChainRules::FREE,
         duration: PhaseDuration::new(3.0).expect("a phase"),
         body_share: 1.0,
         body_share_of: None,

@@ -4,36 +4,48 @@
 //! [`run`] keeps everything in memory and takes all cores; a [`Session`] says how many threads, which
 //! program, and what figures are held against.
 
+mod error;
+mod search;
+
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use serde_json::json;
 
+use prone::gait::PhaseDuration;
 use prone::gait::cycle::Cycle;
-use prone::gait::{PhaseDuration, PhaseDurationError};
 use prone::regime::Regime;
-use prone_files::{FileError, gait_file};
+use prone_files::{cycle_file, gait_file};
 use prone_record::crawl_summary::CrawlSummary;
 use prone_record::experiment::{
-    ChangedText, Detail, Experiment, PassageExperiment, PullExperiment,
+    CrawlExperiment, Detail, Experiment, PassageExperiment, PullExperiment, TorqueMapExperiment,
 };
-use prone_record::output::Artefacts;
+use prone_record::lock::Lock;
+use prone_record::output::{self, Artefacts};
 use prone_record::program::Program;
 use prone_record::pulls::PullRecord;
+use prone_record::resumption::Opening;
+use prone_record::search_result::SearchResult;
+use prone_record::single_file;
 use prone_sim::crawl::CrawlError;
-use prone_sim::pull::{self, Keep, PullError, Start};
-use prone_sim::{LoadError, LoadedRobot, World, WorldError};
+use prone_sim::pull::{self, Keep, Start};
+use prone_sim::{LoadedRobot, World};
 
 use crate::crawl::pull::PullRecording;
-use crate::crawl::record::{self, RecordError, Recording};
-use crate::crawl::{
-    self, CrawlRunError, CrawlSetup, CrawlSetupError, GaitSource, RefusedCycle, summary,
-};
+use crate::crawl::record::{self, Recording};
+use crate::crawl::{self, CrawlRunError, CrawlSetup, summary};
 use crate::pulls::pull_record;
-use crate::search::passage::{Passage, PassageError};
-use crate::search::run::SearchError;
-use crate::search::settings::{self, SettingError};
+use crate::search::passage::Passage;
+use crate::search::room::NoRoom;
+use crate::search::settings;
+use crate::torque_map::build::{self, BuildError, Built, Summary};
+use crate::torque_map::{Job, NodeGrid};
 use crate::watch::Watch;
+
+pub use error::RunError;
+pub use search::CostOutcome;
 
 /// The range that a joint swept on a robot, rad, where one is published.
 pub type JointRanges = Arc<dyn Fn(&str) -> Option<(f64, f64)> + Send + Sync>;
@@ -47,6 +59,17 @@ pub struct Session {
     pub threads: Option<usize>,
     /// Ranges that the figure of joint angles is held against.
     pub joint_ranges: JointRanges,
+    /// Where the result is put; `None` keeps it in memory.
+    pub place: Option<Place>,
+}
+
+/// Where a result is put, and what becomes of unfinished work beside it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Place {
+    /// The result folder; of a passage the file of its cycle, of a torque map the map.
+    pub path: PathBuf,
+    /// Whether a search or a torque map goes on from what an earlier run has left.
+    pub opening: Opening,
 }
 
 /// What came out of an experiment.
@@ -58,6 +81,12 @@ pub enum Outcome {
     Crawl(Box<CrawlOutcome>),
     /// Of a question whether a robot gets under a ceiling.
     Passage(Box<PassageOutcome>),
+    /// The cost of a pull.
+    Cost(Box<CostOutcome>),
+    /// Of a search.
+    Search(SearchResult),
+    /// Of a torque map.
+    TorqueMap(Box<MapOutcome>),
 }
 
 /// What came out of a pull.
@@ -76,10 +105,8 @@ pub struct CrawlOutcome {
     pub summary: CrawlSummary,
     /// Where it was to end, mm, if it did not get there.
     pub missed_mm: Option<f64>,
-    /// The files of its record folder but `timing.json`, where rows were asked for.
+    /// The files of its record folder, where rows were asked for.
     pub artefacts: Option<Artefacts>,
-    /// What it took.
-    pub took: Took,
 }
 
 /// Whether a robot gets under a ceiling.
@@ -91,70 +118,17 @@ pub struct PassageOutcome {
     pub cycle: Option<Cycle>,
 }
 
-/// What an experiment took.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Took {
+/// A torque map.
+#[derive(Debug)]
+pub struct MapOutcome {
+    /// Its file.
+    pub text: String,
+    /// What is in it.
+    pub summary: Summary,
     /// Wall time.
     pub wall: Duration,
     /// Worker threads.
     pub threads: usize,
-    /// Engine steps.
-    pub engine_steps: usize,
-}
-
-/// Why an experiment has no outcome.
-#[derive(Debug, thiserror::Error)]
-pub enum RunError {
-    /// A crawl cannot be set up.
-    #[error(transparent)]
-    Setup(#[from] CrawlSetupError),
-    /// A text is not the one that was asked for.
-    #[error(transparent)]
-    Changed(#[from] ChangedText),
-    /// The robot cannot be loaded.
-    #[error(transparent)]
-    Robot(#[from] LoadError),
-    /// A gait is malformed.
-    #[error(transparent)]
-    Text(#[from] FileError),
-    /// The robot does not compile with its floor.
-    #[error(transparent)]
-    World(#[from] WorldError),
-    /// A duration that no pull can have.
-    #[error(transparent)]
-    Duration(#[from] PhaseDurationError),
-    /// A pull has no record.
-    #[error(transparent)]
-    Pull(#[from] PullError),
-    /// A crawl has no record.
-    #[error(transparent)]
-    Crawl(CrawlRunError),
-    /// The robot cannot crawl a cycle.
-    #[error(transparent)]
-    Cycle(#[from] RefusedCycle),
-    /// A record has no files.
-    #[error(transparent)]
-    Record(#[from] RecordError),
-    /// A margin that is as large as its ceiling.
-    #[error("a margin of {margin_mm} mm leaves no room under a ceiling of {ceiling_mm} mm")]
-    NoRoom {
-        /// The ceiling, mm.
-        ceiling_mm: f64,
-        /// The margin, mm.
-        margin_mm: f64,
-    },
-    /// Cycles cannot be tried.
-    #[error(transparent)]
-    Setting(#[from] SettingError),
-    /// A search under a ceiling has no result.
-    #[error(transparent)]
-    Passage(PassageError),
-    /// The worker threads cannot be started.
-    #[error("cannot start worker threads: {0}")]
-    Threads(#[from] ThreadPoolBuildError),
-    /// [`Watch::stop`] said so.
-    #[error("stopped")]
-    Stopped,
 }
 
 /// Runs an experiment on all cores, in memory.
@@ -174,26 +148,64 @@ impl Default for Session {
             },
             threads: None,
             joint_ranges: Arc::new(|_| None),
+            place: None,
         }
     }
 }
 
 impl Session {
-    /// Runs an experiment in memory.
+    /// Runs an experiment and puts its result in place.
     ///
     /// # Errors
     /// [`RunError`].
     pub fn run(&self, experiment: &Experiment, watch: &dyn Watch) -> Result<Outcome, RunError> {
-        match experiment {
-            Experiment::Pull(pull) => Ok(Outcome::Pull(Box::new(self.pull(pull, watch)?))),
-            Experiment::Crawl(crawl) => {
-                let setup = CrawlSetup::new(crawl)?;
-                Ok(Outcome::Crawl(Box::new(self.crawl(&setup, watch)?)))
+        Ok(match experiment {
+            Experiment::Pull(it) => Outcome::Pull(Box::new(self.pull(it, watch)?)),
+            Experiment::Crawl(it) => Outcome::Crawl(Box::new(self.crawl(it, watch)?)),
+            Experiment::Passage(it) => Outcome::Passage(Box::new(self.passage(it, watch)?)),
+            Experiment::Cost(it) => Outcome::Cost(Box::new(self.cost(it)?)),
+            Experiment::PullSearch(it) => Outcome::Search(self.pull_search(it, watch)?),
+            Experiment::CycleSearch(it) => Outcome::Search(self.cycle_search(it, watch)?),
+            Experiment::TorqueMap(it) => Outcome::TorqueMap(Box::new(self.torque_map(it, watch)?)),
+        })
+    }
+
+    /// Checks that a result folder can be put in its place, where it has one.
+    ///
+    /// # Errors
+    /// [`RunError::Place`].
+    pub fn check_place(&self) -> Result<(), RunError> {
+        let place = self.place.as_ref();
+        place.map_or(Ok(()), |place| {
+            output::check(&place.path).map_err(RunError::Place)
+        })
+    }
+
+    /// The same, and locks the place: of two runs into one folder, the first to end would be lost.
+    /// `what` names them in the error of the second.
+    fn lock(&self, what: &'static str) -> Result<Option<Lock>, RunError> {
+        self.check_place()?;
+        let place = self.place.as_ref();
+        let lock = place.map(|place| Lock::for_folder(&place.path, what));
+        Ok(lock.transpose()?)
+    }
+
+    /// Puts a result folder in place, where it has one, and does what follows in the same step.
+    ///
+    /// # Errors
+    /// [`RunError::Stopped`] if the work was to end before; [`RunError::Publish`], or that of `then`.
+    pub fn publish(
+        &self,
+        artefacts: &Artefacts,
+        watch: &dyn Watch,
+        then: impl FnOnce() -> Result<(), RunError>,
+    ) -> Result<(), RunError> {
+        uninterrupted(watch, || {
+            if let Some(place) = &self.place {
+                output::publish(&place.path, artefacts)?;
             }
-            Experiment::Passage(passage) => {
-                Ok(Outcome::Passage(Box::new(self.passage(passage, watch)?)))
-            }
-        }
+            then()
+        })
     }
 
     /// The worker threads of an experiment.
@@ -205,11 +217,13 @@ impl Session {
         Ok(ThreadPoolBuilder::new().num_threads(threads).build()?)
     }
 
-    /// Simulates a crawl that was set up.
-    ///
-    /// # Errors
-    /// [`RunError`].
-    pub fn crawl(&self, setup: &CrawlSetup, watch: &dyn Watch) -> Result<CrawlOutcome, RunError> {
+    fn crawl(
+        &self,
+        experiment: &CrawlExperiment,
+        watch: &dyn Watch,
+    ) -> Result<CrawlOutcome, RunError> {
+        let setup = CrawlSetup::new(experiment)?;
+        let _lock = self.lock("crawl that is recorded in this folder")?;
         let started = Instant::now();
         // Pictures are taken on it.
         let pool = match setup.detail() {
@@ -228,75 +242,62 @@ impl Session {
             setup.past,
         )
         .map_err(|error| setup.gait.refused(&error))?;
-        let artefacts = match &pool {
-            None => None,
-            Some(pool) => {
-                let recording = Recording {
-                    robot: &setup.robot,
-                    world: &setup.world,
-                    gait: &setup.gait,
-                    conditions: &setup.conditions,
-                    crawl: &crawl,
-                    summary: &summary,
-                };
-                let ranges = &*self.joint_ranges;
-                Some(pool.install(|| record::files(&recording, &self.program, &ranges))?)
-            }
-        };
+        let mut artefacts = None;
+        if let Some(pool) = &pool {
+            let recording = Recording {
+                robot: &setup.robot,
+                world: &setup.world,
+                gait: &setup.gait,
+                conditions: &setup.conditions,
+                crawl: &crawl,
+                summary: &summary,
+            };
+            let ranges = &*self.joint_ranges;
+            let mut files = pool.install(|| record::files(&recording, &self.program, &ranges))?;
+            let threads = pool.current_num_threads();
+            let timing = timing(started, threads, crawl.engine_steps)?;
+            files.insert("timing.json".into(), timing);
+            self.publish(&files, watch, || Ok(()))?;
+            artefacts = Some(files);
+        }
         let past = setup.past.filter(|_| !crawl.arrived);
         Ok(CrawlOutcome {
             summary,
             missed_mm: past.map(|past| past.x * 1e3),
             artefacts,
-            took: Took {
-                wall: started.elapsed(),
-                threads: pool
-                    .as_ref()
-                    .map_or(1, rayon::ThreadPool::current_num_threads),
-                engine_steps: crawl.engine_steps,
-            },
         })
     }
 
     /// Tries cycles under a ceiling, and searches one where none fits and that is asked for.
-    ///
-    /// # Errors
-    /// [`RunError`].
-    pub fn passage(
+    fn passage(
         &self,
         experiment: &PassageExperiment,
         watch: &dyn Watch,
     ) -> Result<PassageOutcome, RunError> {
         let (ceiling_mm, margin_mm) = (experiment.ceiling_mm, experiment.margin_mm);
-        // NaN leaves none either.
-        let leaves_room = margin_mm < ceiling_mm;
-        if !leaves_room {
-            return Err(RunError::NoRoom {
-                ceiling_mm,
-                margin_mm,
-            });
+        NoRoom::check(ceiling_mm, margin_mm)?;
+        if let Some(place) = &self.place {
+            single_file::check_place(&place.path).map_err(RunError::PlaceOfFile)?;
         }
         let robot = LoadedRobot::load(experiment.robot.files()?)?;
         let sources = experiment.cycles.iter();
-        let sources = sources.map(|it| Ok((GaitSource::from_text(&it.gait)?.cycle, &*it.origin)));
-        let sources: Vec<(Cycle, &str)> = sources.collect::<Result<_, CrawlSetupError>>()?;
+        let sources = sources.map(|it| Ok((it.gait.parse(cycle_file::parse)?, &*it.origin)));
+        let sources: Vec<(Cycle, &str)> = sources.collect::<Result<_, RunError>>()?;
         let settings = settings::for_advance(&robot)?;
         let (ceiling, margin) = (ceiling_mm * 1e-3, margin_mm * 1e-3);
         let tried = sources.iter().map(|(cycle, origin)| (cycle, *origin));
-        let mut passage = Passage::try_all(robot.robot(), &settings[0], tried, ceiling, margin);
+        let mut passage =
+            Passage::try_all(robot.robot(), &settings[0], tried, ceiling, margin, watch);
+        if watch.stop() {
+            return Err(RunError::Stopped);
+        }
         let mut cycles: Vec<Cycle> = sources.into_iter().map(|(cycle, _)| cycle).collect();
         if let (Some(asked), true) = (experiment.search, passage.may_be_searched()) {
             let height = ceiling - margin;
             let found = self
                 .pool()?
                 .install(|| passage.search(asked, &robot, &cycles, ceiling_mm, height, watch));
-            cycles.extend(found.map_err(|error| match error {
-                PassageError::Result(SearchError::Stopped) => RunError::Stopped,
-                other => RunError::Passage(other),
-            })?);
-        }
-        if watch.stop() {
-            return Err(RunError::Stopped);
+            cycles.extend(found?);
         }
         // What was searched last is the one of its name.
         let best = passage.best.as_ref();
@@ -304,7 +305,74 @@ impl Session {
             let mut last_first = cycles.into_iter().rev();
             last_first.find(|cycle| cycle.pull.name == best.gait)
         });
+        uninterrupted(watch, || {
+            let found = self
+                .place
+                .as_ref()
+                .zip(passage.best.as_ref())
+                .zip(cycle.as_ref());
+            found.map_or(Ok(()), |((place, best), cycle)| {
+                let header = format!(
+                    "Passes {ceiling_mm} mm with {:.1} mm to spare, {:.1} mm per cycle (prone crawl under).",
+                    best.left_mm, best.mm_per_cycle
+                );
+                let text = cycle_file::write(cycle, &header);
+                let written = single_file::write(&place.path, text.as_bytes());
+                written.map_err(|source| RunError::PublishFile { source, journal: None })
+            })
+        })?;
         Ok(PassageOutcome { passage, cycle })
+    }
+
+    /// Measures a torque map; what is measured is kept beside its place.
+    fn torque_map(
+        &self,
+        experiment: &TorqueMapExperiment,
+        watch: &dyn Watch,
+    ) -> Result<MapOutcome, RunError> {
+        let grid = NodeGrid::new(experiment.step_deg, experiment.theta4_max_deg)?;
+        let robot = LoadedRobot::load(experiment.robot.files()?)?;
+        let job = Job::new(&robot, experiment.source, grid, &self.program)?;
+        let place = self.place.as_ref();
+        if let Some(place) = place {
+            single_file::check_place(&place.path).map_err(RunError::PlaceOfFile)?;
+        }
+        let pool = self.pool()?;
+        let started = Instant::now();
+        let kept = place.map(|place| (&*place.path, place.opening));
+        let built = pool.install(|| build::run(&job, kept, watch));
+        let Built {
+            text,
+            summary,
+            journal,
+        } = built.map_err(stopped_map)?;
+        let wall = started.elapsed();
+        let path = journal.as_ref().map(|journal| journal.path().to_owned());
+        let published = uninterrupted(watch, || {
+            if let Some(place) = place {
+                let written = single_file::write(&place.path, text.as_bytes());
+                written.map_err(|source| RunError::PublishFile {
+                    source,
+                    journal: path.clone(),
+                })?;
+            }
+            // Only then the journal goes.
+            journal.map_or(Ok(()), |journal| Ok(journal.remove()?))
+        });
+        published.map_err(|error| match (error, path) {
+            (RunError::Stopped, Some(journal)) => RunError::StoppedMap {
+                done: summary.rows,
+                rows: summary.rows,
+                journal,
+            },
+            (error, _) => error,
+        })?;
+        Ok(MapOutcome {
+            text,
+            summary,
+            wall,
+            threads: pool.current_num_threads(),
+        })
     }
 
     fn pull(
@@ -313,7 +381,8 @@ impl Session {
         watch: &dyn Watch,
     ) -> Result<PullOutcome, RunError> {
         let robot = LoadedRobot::load(experiment.robot.files()?)?;
-        let gait = gait_file::parse(&experiment.gait.file, experiment.gait.checked()?)?;
+        let gait = experiment.gait.parse(gait_file::parse)?;
+        let _lock = self.lock("pull that is recorded in this folder")?;
         let duration = PhaseDuration::new(experiment.duration_s)?;
         let world = World::new(&robot, Regime::TORQUE_STUDY)?;
         if watch.stop() {
@@ -330,9 +399,61 @@ impl Session {
             start_posture: "the gait's own first pose",
             pull: &pull,
         };
+        let artefacts = crawl::pull::files(&recording, &self.program)?;
+        self.publish(&artefacts, watch, || Ok(()))?;
         Ok(PullOutcome {
             record: pull_record(world.robot(), &gait, duration, &pull),
-            artefacts: crawl::pull::files(&recording, &self.program)?,
+            artefacts,
         })
     }
+}
+
+/// Does what is not to be stopped halfway.
+fn uninterrupted(
+    watch: &dyn Watch,
+    work: impl FnOnce() -> Result<(), RunError>,
+) -> Result<(), RunError> {
+    let (mut work, mut done) = (Some(work), Ok(()));
+    let published = watch.publish(&mut || {
+        if let Some(work) = work.take() {
+            done = work();
+        }
+    });
+    if published {
+        done
+    } else {
+        Err(RunError::Stopped)
+    }
+}
+
+fn stopped_map(error: BuildError) -> RunError {
+    match error {
+        BuildError::Stopped {
+            kept,
+            rows,
+            journal: Some(journal),
+        } if kept > 0 => RunError::StoppedMap {
+            done: kept,
+            rows,
+            journal,
+        },
+        BuildError::Stopped { .. } => RunError::Stopped,
+        other => RunError::Build(other),
+    }
+}
+
+/// `timing.json`.
+///
+/// # Errors
+/// [`serde_json::Error`], which these numbers do not produce.
+pub fn timing(
+    started: Instant,
+    threads: usize,
+    engine_steps: usize,
+) -> Result<Vec<u8>, serde_json::Error> {
+    serde_json::to_vec_pretty(&json!({
+        "wall_s": started.elapsed().as_secs_f64(),
+        "threads": threads,
+        "engine_steps": engine_steps,
+    }))
 }

@@ -12,5 +12,5 @@ mod kept_row;
 pub mod plot;
 
 pub use grid::{MOST_ROWS, NodeGrid, NodeGridError};
-pub use job::{Job, JobError, Source};
+pub use job::{Job, JobError};
 pub use kept_row::KeptRow;

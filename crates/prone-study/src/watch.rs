@@ -1,4 +1,6 @@
-//! Whoever waits for work: is told how it goes, and may end it.
+//! Whoever waits for work: is told how it goes, may end it, and lets its result be put in place.
+
+use std::path::Path;
 
 use prone_record::search::Search;
 
@@ -9,19 +11,52 @@ pub trait Watch: Sync {
 
     /// What has been done since the last call.
     fn progress(&self, progress: &Progress<'_>);
+
+    /// Does what is not to be stopped halfway, unless the work is to end; whether it was done.
+    fn publish(&self, put_in_place: &mut dyn FnMut()) -> bool {
+        let goes_on = !self.stop();
+        if goes_on {
+            put_in_place();
+        }
+        goes_on
+    }
 }
 
 /// How work goes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Progress<'a> {
-    /// Simulations begin, so many in all.
+    /// Simulations begin, so many in all; pictures are made after them.
     Simulating(usize),
+    /// Rows of a torque map begin.
+    Measuring {
+        /// Rows in all.
+        rows: usize,
+        /// Rows that an earlier run left, which are taken over.
+        taken_over: usize,
+        /// From where, if rows are kept.
+        journal: Option<&'a Path>,
+    },
     /// So many steps more are done: phases, rows of a map or pictures.
     Done(usize),
-    /// An earlier run left so many steps, which are taken over.
-    TakenOver(usize),
+    /// A search has found this in the place of its checkpoint.
+    Found(&'a Path, Found),
     /// A search has done one more generation, or begins.
     Searching(&'a Search),
+}
+
+/// What stands in the place of a search's checkpoint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Found {
+    /// Nothing to go on from, though that was asked for.
+    Nothing,
+    /// A file that breaks off: the search begins anew.
+    Torn,
+    /// An earlier search, which is replaced.
+    Replaced,
+    /// Something of another version, which is replaced.
+    ReplacedOther,
+    /// A search of so many evaluations, which goes on.
+    Evaluations(u64),
 }
 
 /// Nobody waits: the work goes on to its end.

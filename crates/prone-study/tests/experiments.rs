@@ -1,14 +1,22 @@
 //! An experiment is all that it takes: it is sent as text, read back, and run without a file.
 
+use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use prone_files::robot_folder::RobotFiles;
 use prone_files::shipped;
 use prone_record::experiment::{
-    CrawlExperiment, Detail, Ending, Experiment, GaitText, PassageCycle, PassageExperiment,
-    PullExperiment, RobotText, SceneText, SteeringChoice,
+    ClearanceChoice, CostExperiment, CrawlExperiment, CycleRulesChoice, CycleSearchExperiment,
+    Detail, Ending, Ends, Experiment, GaitForm, GaitText, LimitsChoice, MapSource, NamedGait,
+    PassageCycle, PassageExperiment, PullCostChoice, PullExperiment, PullObjective, PullRules,
+    PullSearchExperiment, RobotText, Runs, SceneText, Share, SteeringChoice, TorqueChoice,
+    TorqueMapExperiment, Under,
 };
-use prone_study::run::{Outcome, RunError, run};
+use prone_record::frontier::CycleObjective;
+use prone_record::resumption::Opening;
+use prone_record::search::Solver;
+use prone_record::search_result::SearchResult;
+use prone_study::run::{Outcome, Place, RunError, Session, run};
 use prone_study::watch::{Progress, Unwatched, Watch};
 
 fn robot() -> RobotText {
@@ -39,7 +47,7 @@ fn a_crawl_that_was_sent_is_the_crawl_that_was_asked_for() {
             assert!(crawl.artefacts.is_none(), "no rows were asked for");
             crawl.summary
         }
-        Outcome::Pull(_) | Outcome::Passage(_) => panic!("a crawl was asked for"),
+        other => panic!("a crawl was asked for: {other:?}"),
     };
     let here = summary(&experiment);
     assert_eq!(here.cycles, 1);
@@ -136,12 +144,16 @@ fn limit_what_no_crawl_can_have() {
     }
 }
 
-/// Says stop after so many looks.
+/// Says stop after so many looks, and then always.
 struct After(AtomicUsize);
 
 impl Watch for After {
     fn stop(&self) -> bool {
-        self.0.fetch_sub(1, Ordering::Relaxed) == 0
+        let left = |looks: usize| looks.checked_sub(1);
+        let looked = self
+            .0
+            .fetch_update(Ordering::Relaxed, Ordering::Relaxed, left);
+        looked.is_err()
     }
 
     fn progress(&self, _: &Progress<'_>) {}
@@ -161,4 +173,202 @@ fn an_experiment_is_stopped_and_a_changed_text_refused() {
     rows.time_step_s = Some(0.1);
     let error = run(&Experiment::Crawl(Box::new(rows)), &Unwatched).unwrap_err();
     assert!(error.to_string().contains("0.0001..0.005 s"), "{error}");
+}
+
+fn terms() -> PullCostChoice {
+    PullCostChoice {
+        objective: PullObjective::Heat {
+            rules: PullRules {
+                per: Share::Metre,
+                duration_s: 3.0,
+                rate_deg_per_phase: Some(200.0),
+                clearance: ClearanceChoice::Base,
+                limits: LimitsChoice::Base,
+            },
+        },
+        source: TorqueChoice::Statics,
+        base: gait("nominal"),
+    }
+}
+
+fn pull_search() -> PullSearchExperiment {
+    PullSearchExperiment {
+        robot: robot(),
+        terms: terms(),
+        form: GaitForm::Cubic,
+        ends: Ends::Fixed,
+        solver: Solver::DifferentialEvolution,
+        runs: Runs {
+            seed: 1,
+            runs: 2,
+            budget: 400,
+        },
+        time_budget_s: None,
+        name: "best".to_owned(),
+        compared: vec![gait("nominal"), gait("optimal")],
+        confirm_durations_s: vec![1.0],
+    }
+}
+
+fn put(path: &Path, opening: Opening) -> Session {
+    Session {
+        place: Some(Place {
+            path: path.to_owned(),
+            opening,
+        }),
+        ..Session::default()
+    }
+}
+
+#[test]
+fn a_cost_that_was_sent_is_the_cost_that_was_asked_for() {
+    let cost = |terms: PullCostChoice| {
+        let experiment = Experiment::Cost(Box::new(CostExperiment {
+            robot: robot(),
+            gait: gait("optimal"),
+            terms,
+        }));
+        match run(&sent(&experiment), &Unwatched)? {
+            Outcome::Cost(outcome) => Ok(outcome.cost.cost.unwrap()),
+            other => panic!("a cost was asked for: {other:?}"),
+        }
+    };
+    let per_metre: f64 = cost(terms()).unwrap();
+    let PullObjective::Heat { rules } = terms().objective else {
+        panic!("the objective is heat");
+    };
+    let per_pull = PullCostChoice {
+        objective: PullObjective::Heat {
+            rules: PullRules {
+                per: Share::Phase,
+                ..rules
+            },
+        },
+        ..terms()
+    };
+    // The shoulder of both published gaits advances by its own upper arm's stroke.
+    let stroke: f64 = cost(per_pull).unwrap() / per_metre;
+    assert!((0.05..0.15).contains(&stroke), "{stroke} m");
+    let weightless = PullCostChoice {
+        objective: PullObjective::Torque {
+            weights: [0.0; 4],
+            rules,
+        },
+        ..terms()
+    };
+    let refused: RunError = cost(weightless).unwrap_err();
+    assert!(refused.to_string().contains("not all 0"), "{refused}");
+}
+
+#[test]
+fn identity_a_search_is_the_same_in_memory_and_stopped_and_resumed_in_a_folder() {
+    let home = tempfile::tempdir().unwrap();
+    let out = home.path().join("found");
+    let experiment = Experiment::PullSearch(Box::new(pull_search()));
+    let text = |outcome| match outcome {
+        Outcome::Search(result @ SearchResult::Pulls(_)) => serde_json::to_string(&result).unwrap(),
+        other => panic!("a search was asked for: {other:?}"),
+    };
+    let in_memory = text(run(&sent(&experiment), &Unwatched).unwrap());
+    let stopped = put(&out, Opening::Restart).run(&experiment, &After(AtomicUsize::new(5)));
+    let Err(RunError::StoppedSearch { checkpoint }) = stopped else {
+        panic!("it was to stop: {stopped:?}");
+    };
+    assert!(checkpoint.exists() && !out.exists());
+    let other = PullSearchExperiment {
+        ends: Ends::Free,
+        ..pull_search()
+    };
+    let other = Experiment::PullSearch(Box::new(other));
+    let refused = put(&out, Opening::Resume).run(&other, &Unwatched);
+    assert!(
+        matches!(refused, Err(RunError::Resumption(_))),
+        "{refused:?}"
+    );
+    let resumed = put(&out, Opening::Resume).run(&experiment, &Unwatched);
+    assert_eq!(text(resumed.unwrap()), in_memory);
+    assert!(out.join("gait.toml").exists() && !checkpoint.exists());
+}
+
+#[test]
+fn a_search_of_cycles_that_was_sent() {
+    let experiment = CycleSearchExperiment {
+        robot: robot(),
+        objective: CycleObjective::Advance,
+        steerable: false,
+        under: Under::One {
+            rules: CycleRulesChoice {
+                ceiling_mm: Some(178.0),
+                ..CycleRulesChoice::default()
+            },
+            worst_over: None,
+            name: Some("low".to_owned()),
+        },
+        from: vec![NamedGait {
+            called: "low-175".to_owned(),
+            gait: gait("low-175"),
+        }],
+        compared: Vec::new(),
+        runs: Runs {
+            seed: 1,
+            runs: 1,
+            budget: 16,
+        },
+    };
+    let asked = sent(&Experiment::CycleSearch(Box::new(experiment.clone())));
+    let Outcome::Search(SearchResult::Cycles(found)) = run(&asked, &Unwatched).unwrap() else {
+        panic!("a search of cycles was asked for");
+    };
+    assert_eq!(found.found[0].gait, "low-seed-1");
+    let refused = |under| {
+        let asked = CycleSearchExperiment {
+            under,
+            ..experiment.clone()
+        };
+        let refused = run(&Experiment::CycleSearch(Box::new(asked)), &Unwatched);
+        refused.unwrap_err().to_string()
+    };
+    for (ceilings_mm, reason) in [
+        (vec![178.0, 178.0], "178 mm is there twice"),
+        (vec![150.0], "150 mm is too low for NAO H25 V4"),
+        (vec![1.0], "a margin of 1 mm leaves no room"),
+    ] {
+        let said = refused(Under::Ceilings {
+            ceilings_mm,
+            margin_mm: 1.0,
+        });
+        assert!(said.contains(reason), "{said}");
+    }
+    let said = refused(Under::One {
+        rules: CycleRulesChoice {
+            most_heat: Some(100.0),
+            ..CycleRulesChoice::default()
+        },
+        worst_over: None,
+        name: None,
+    });
+    assert!(
+        said.contains("most_heat goes with the objectives heat"),
+        "{said}"
+    );
+}
+
+#[test]
+fn identity_a_torque_map_is_the_same_in_memory_and_in_a_file() {
+    let home = tempfile::tempdir().unwrap();
+    let out = home.path().join("map.csv");
+    let experiment = Experiment::TorqueMap(Box::new(TorqueMapExperiment {
+        robot: robot(),
+        source: MapSource::Statics,
+        step_deg: 10.0,
+        theta4_max_deg: 10.0,
+    }));
+    let Outcome::TorqueMap(map) = run(&sent(&experiment), &Unwatched).unwrap() else {
+        panic!("a map was asked for");
+    };
+    put(&out, Opening::Resume)
+        .run(&experiment, &Unwatched)
+        .unwrap();
+    assert_eq!(std::fs::read_to_string(&out).unwrap(), map.text);
+    assert_eq!(std::fs::read_dir(home.path()).unwrap().count(), 1);
 }

@@ -21,7 +21,8 @@ use prone_sim::{LoadedRobot, RobotFiles, World};
 use prone_study::search::candidates::Depth;
 use prone_study::search::chain_rules::{self, ChainRules, Clearance};
 use prone_study::search::published::{self, PublishedProblem};
-use prone_study::search::pull_cost::{self, PullAim, PullCosts, PullTerms, Share, Source};
+use prone_study::search::pull_cost::PullCosts;
+use prone_study::search::pull_terms::{self, PullAim, PullTerms, Share, Source};
 use prone_study::search::pull_trial;
 
 fn nao() -> LoadedRobot {
@@ -50,7 +51,7 @@ fn terms(world: &World, objective: Objective, duration: PhaseDuration) -> PullTe
             stops: Some(chain_rules::widened_stops(world.robot(), &gait("nominal")).unwrap()),
         },
         duration,
-        body_share: pull_cost::body_share(world, &gait("optimal"), duration).unwrap(),
+        body_share: pull_terms::body_share(world, &gait("optimal"), duration).unwrap(),
         body_share_of: None,
     }
 }

@@ -8,12 +8,10 @@ use std::path::PathBuf;
 
 use prone::torque_map::{RecordedMap, parse_recorded};
 use prone_files::shipped;
-use prone_record::program::Program;
-use prone_record::resumption::Opening;
-use prone_sim::{LoadedRobot, RobotFiles};
-use prone_study::torque_map::build;
+use prone_record::experiment::{Experiment, MapSource, RobotText, TorqueMapExperiment};
+use prone_sim::RobotFiles;
+use prone_study::run::{Outcome, run};
 use prone_study::torque_map::compare::{MaskCounts, compare};
-use prone_study::torque_map::{Job, NodeGrid, Source};
 use prone_study::watch::Unwatched;
 
 /// Largest median |difference|, N·m: what an independent prototype reached, rounded up.
@@ -37,18 +35,17 @@ fn recorded_table(name: &str) -> Option<RecordedMap> {
 }
 
 /// A map as `prone torque-map build` writes and `compare` reads it.
-fn built(source: Source, step_deg: f64, theta4_max_deg: f64) -> RecordedMap {
-    let robot = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
-    let grid = NodeGrid::new(step_deg, theta4_max_deg).unwrap();
-    let program = Program {
-        version: "0.0.0".into(),
-        commit: "test".into(),
+fn built(source: MapSource, step_deg: f64, theta4_max_deg: f64) -> RecordedMap {
+    let experiment = Experiment::TorqueMap(Box::new(TorqueMapExperiment {
+        robot: RobotText::from_files(&RobotFiles::shipped(&shipped::NAO)),
+        source,
+        step_deg,
+        theta4_max_deg,
+    }));
+    let Outcome::TorqueMap(map) = run(&experiment, &Unwatched).unwrap() else {
+        panic!("a map was asked for");
     };
-    let job = Job::new(&robot, source, grid, &program).unwrap();
-    let home = tempfile::tempdir().unwrap();
-    let journal = home.path().join("journal");
-    let built = build::run(&job, &journal, Opening::Resume, &Unwatched).unwrap();
-    parse_recorded(&built.text).unwrap()
+    parse_recorded(&map.text).unwrap()
 }
 
 fn medians(a: &RecordedMap, b: &RecordedMap) -> Vec<f64> {
@@ -89,7 +86,7 @@ fn reference_the_two_recorded_tables_are_nodes_of_one_grid() {
 
 #[test]
 fn reference_statics_against_both_recorded_tables() {
-    let map = built(Source::Statics, 2.5, 27.5);
+    let map = built(MapSource::Statics, 2.5, 27.5);
     for (name, compared) in [
         ("torque-table-2.5deg.csv", 10_424),
         ("torque-table-5deg.csv", 1104),
@@ -110,7 +107,7 @@ fn reference_settled_simulation_against_the_coarser_recorded_table() {
     let Some(table) = recorded_table("torque-table-5deg.csv") else {
         return;
     };
-    let map = built(Source::Simulation, 10.0, 10.0);
+    let map = built(MapSource::Simulation, 10.0, 10.0);
     for (found, limit) in medians(&map, &table).into_iter().zip(MEDIANS) {
         assert!(found <= limit, "{found} N·m");
     }

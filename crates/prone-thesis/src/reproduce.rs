@@ -1,37 +1,45 @@
 //! The published chapter's main result, as the files of one folder.
 
 use std::collections::BTreeMap;
+use std::time::Instant;
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
-use prone::gait::{PhaseDuration, PhaseDurationError};
-
+use prone::gait::cycle::{CheckedCycle, CycleError, TimeScale};
+use prone::gait::{PhaseDuration, PhaseDurationError, TrajectoryError};
 use prone::regime::Regime;
-use prone_sim::{LoadedRobot, World, WorldError};
-
-use crate::chapter::Thesis;
-use crate::robot_numbers::{NumbersError, RobotNumbers};
-use crate::run_info::RunInfo;
-use crate::summary::{self, Summary};
-use crate::table_crawl::{self, TableError, TableResult, TableStudy};
-use crate::torque_study::{self, Plan, StudyError, TorqueStudy};
-use crate::{agreement, published, tables};
+use prone::robot::Robot;
+use prone_files::{gait_file, scene_file, shipped};
+use prone_record::experiment::{GaitText, RobotText, SceneText, TextError};
 use prone_record::output::{Artefacts, RUN_FILE, json};
 use prone_record::program::Program;
 use prone_record::recorded::Command;
 use prone_record::{contact_story, tables as record_tables};
 use prone_report::figure_list::FigureList;
 use prone_report::report::{PAGE_FILE, Report, ReportError};
+use prone_sim::crawl::CrawlError;
+use prone_sim::pull::PullError;
+use prone_sim::{LoadError, LoadedRobot, World, WorldError};
 use prone_study::crawl::pull::PullRecording;
 use prone_study::crawl::record::{RecordError, Recording};
-use prone_study::frames::FramesError;
-use prone_study::watch::Watch;
-use prone_study::{crawl, frames};
+use prone_study::crawl::{self, GaitSource};
+use prone_study::frames::{self, FramesError};
+use prone_study::run::{RunError, Session, timing};
+use prone_study::watch::{Progress, Watch};
+
+use crate::chapter::Thesis;
+use crate::robot_numbers::{NumbersError, RobotNumbers};
+use crate::run_info::RunInfo;
+use crate::summary::{self, Summary};
+use crate::table_crawl::{self, TableError, TableResult, TableStudy};
+use crate::torque_study::{self, Plan, PlanError, StudyError, TorqueStudy};
+use crate::{agreement, published, tables};
 
 /// A finished reproduction.
 #[derive(Debug)]
 pub struct Reproduction {
-    /// The files, by path in the result folder; all the same for the same input.
+    /// The files, by path in the result folder; all but `timing.json` the same for the same input.
     pub artefacts: Artefacts,
     /// The figures of the study.
     pub summary: Summary,
@@ -42,6 +50,21 @@ pub struct Reproduction {
 /// Why a reproduction fails.
 #[derive(Debug, thiserror::Error)]
 pub enum ReproduceError {
+    /// The robot cannot be loaded.
+    #[error(transparent)]
+    Robot(#[from] LoadError),
+    /// A gait or the table cannot be read.
+    #[error(transparent)]
+    Text(#[from] TextError),
+    /// There is no study of these durations.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    /// The robot cannot follow a pull.
+    #[error(transparent)]
+    Trajectory(#[from] TrajectoryError),
+    /// The result cannot be made, or not put in its place.
+    #[error(transparent)]
+    Run(#[from] RunError),
     /// The robot does not compile with floor and servos.
     #[error(transparent)]
     World(#[from] WorldError),
@@ -74,127 +97,256 @@ pub enum ReproduceError {
     Report(#[from] ReportError),
 }
 
+impl ReproduceError {
+    /// Whether the work failed, and not what was asked for: a gait that the robot cannot follow is
+    /// wrong input, a diverging simulation is not.
+    pub const fn is_work(&self) -> bool {
+        match self {
+            Self::Run(error) => error.is_work(),
+            Self::Study(error) => !matches!(
+                error,
+                StudyError::Trajectory(_)
+                    | StudyError::Pull(PullError::Trajectory(_) | PullError::StartPosture { .. })
+            ),
+            Self::Table(error) => !matches!(error, TableError::Cycle(_)),
+            Self::Numbers(_)
+            | Self::Duration(_)
+            | Self::Frames(_)
+            | Self::Record(_)
+            | Self::Csv(_)
+            | Self::Json(_)
+            | Self::Report(_) => true,
+            _ => false,
+        }
+    }
+
+    /// Whether the work was to end.
+    pub const fn is_stopped(&self) -> bool {
+        matches!(
+            self,
+            Self::Run(RunError::Stopped)
+                | Self::Study(StudyError::Stopped)
+                | Self::Table(TableError::Crawl(CrawlError::Stopped))
+        )
+    }
+}
+
 /// How the report of a reproduction calls its own folder.
 const OWN_NAME: &str = "this folder";
 
-/// What is reproduced.
-#[derive(Debug, Clone, Copy)]
-pub struct Study<'a> {
-    /// With which robot.
-    pub robot: &'a LoadedRobot,
-    /// Which pulls.
-    pub plan: &'a Plan,
-    /// The files of their gaits, by the gaits' names: path and text.
-    pub gait_files: &'a BTreeMap<String, (String, String)>,
-    /// Which crawl, if any.
-    pub table: Option<&'a TableStudy>,
+/// What is reproduced: the study's pulls at several durations, and its crawl under a table.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ReproduceExperiment {
+    /// The robot that takes part.
+    pub robot: RobotText,
+    /// How long pulls last, s, multiples of 0.1.
+    pub durations_s: Vec<f64>,
+    /// The study's pulls, in the order of the records.
+    pub gaits: Vec<GaitText>,
+    /// Its crawl, which a robot that lacks joints of the cycle leaves out.
+    pub table: Option<TableTexts>,
 }
 
-/// Runs the study on the current rayon pool and makes every file of the result.
+/// The crawl under the table.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct TableTexts {
+    /// The cycle.
+    pub cycle: GaitText,
+    /// The table.
+    pub scene: SceneText,
+}
+
+impl ReproduceExperiment {
+    /// The published study with a robot: its gaits and its table as they ship, also for a robot that
+    /// has gaits of its own of their names.
+    pub fn new(robot: RobotText, durations_s: Vec<f64>) -> Self {
+        let shipped_gait = |name: &str| {
+            let gait = shipped::gait_file(name)?;
+            Some(GaitText::new(&gait.file, &gait.text))
+        };
+        let scene = shipped::scene_text(published::TABLE_SCENE);
+        let scene = scene.map(|text| SceneText::new(published::TABLE_SCENE, text));
+        let cycle = shipped_gait(published::TABLE_CYCLE);
+        Self {
+            robot,
+            durations_s,
+            gaits: published::GAITS
+                .into_iter()
+                .filter_map(shipped_gait)
+                .collect(),
+            table: cycle
+                .zip(scene)
+                .map(|(cycle, scene)| TableTexts { cycle, scene }),
+        }
+    }
+}
+
+/// The same, loaded.
+struct Study<'a> {
+    robot: &'a LoadedRobot,
+    plan: &'a Plan,
+    /// The files of the gaits, by the gaits' names.
+    gait_files: &'a BTreeMap<String, &'a GaitText>,
+    table: Option<&'a TableStudy>,
+}
+
+/// Reproduces the study and puts the result in its place.
 ///
 /// # Errors
 /// [`ReproduceError`].
 pub fn run(
-    studied: &Study<'_>,
-    program: &Program,
+    experiment: &ReproduceExperiment,
+    session: &Session,
     watch: &dyn Watch,
 ) -> Result<Reproduction, ReproduceError> {
-    let Study {
-        robot, plan, table, ..
-    } = *studied;
-    let world = World::new(robot, Regime::TORQUE_STUDY)?;
-    let (study, table_result) = rayon::join(
-        || torque_study::run(&world, plan, watch),
-        || {
-            let result = table.map(|table| table_crawl::run(robot, table, watch));
-            result.transpose()
-        },
-    );
-    let (study, table_result) = (study?, table_result?);
-    let bins = published::torque_bins()?;
-    let agreement = agreement::of(&study.pulls, &bins);
-    let stories = study
-        .pulls
-        .iter()
-        .filter(|pull| (pull.duration_s - study.showcase_s).abs() < 1e-9)
-        .map(contact_story::of)
-        .collect();
-    let experiments = table_result
-        .as_ref()
-        .map_or_else(Vec::new, |result| result.experiments.clone());
-    let showcase = PhaseDuration::new(study.showcase_s)?;
-    let numbers = RobotNumbers::new(world.robot(), plan.gaits(), showcase)?;
-    let summary = Summary {
-        robot: Some(numbers),
-        ..summary::of(&study, agreement, stories, experiments)
+    let mut gaits = Vec::with_capacity(experiment.gaits.len());
+    let mut gait_files = BTreeMap::new();
+    for text in &experiment.gaits {
+        let gait = text.parse(gait_file::parse)?;
+        gait_files.insert(gait.name.clone(), text);
+        gaits.push(gait);
+    }
+    let plan = Plan::new(gaits, &experiment.durations_s)?;
+    let robot = LoadedRobot::load(experiment.robot.files().map_err(RunError::from)?)?;
+    plan.check(&World::new(&robot, Regime::TORQUE_STUDY)?)?;
+    let table = match &experiment.table {
+        Some(texts) => table_study(robot.robot(), texts)?,
+        None => None,
     };
-    let info = RunInfo::of(robot, &world, plan, table.map(TableStudy::info), program);
+    session.check_place()?;
+    let pool = session.pool()?;
+    let crawls = table.as_ref().map_or(0, |_| published::TABLE_CRAWLS.len());
+    watch.progress(&Progress::Simulating(plan.phases() + crawls));
+    let started = Instant::now();
+    let study = Study {
+        robot: &robot,
+        plan: &plan,
+        gait_files: &gait_files,
+        table: table.as_ref(),
+    };
+    let mut made = pool.install(|| study.run(&session.program, watch))?;
+    let threads = pool.current_num_threads();
+    let timing = timing(started, threads, made.engine_steps)?;
+    made.artefacts.insert("timing.json".into(), timing);
+    session.publish(&made.artefacts, watch, || Ok(()))?;
+    Ok(made)
+}
 
-    let mut artefacts = Artefacts::new();
-    for pull in &study.pulls {
-        let name = format!("torques/{}", record_tables::torque_file_name(pull));
-        artefacts.insert(name, record_tables::torques(pull)?);
+/// The crawl under the table, for a robot that has the joints which its cycle names.
+fn table_study(robot: &Robot, texts: &TableTexts) -> Result<Option<TableStudy>, ReproduceError> {
+    let gait = GaitSource::from_text(&texts.cycle)?;
+    let scene = texts.scene.parse(scene_file::parse)?;
+    match CheckedCycle::plan(robot, &robot.stops(), &gait.cycle, 0.0, TimeScale::ONE) {
+        Ok(_) => Ok(Some(TableStudy {
+            gait,
+            scene,
+            scene_text: texts.scene.text.clone(),
+        })),
+        Err(CycleError::UnknownJoint { .. }) => Ok(None),
+        Err(error) => Err(TableError::from(error).into()),
     }
-    artefacts.insert("chains.csv".into(), record_tables::chains(&study.chains)?);
-    artefacts.insert("costs.csv".into(), record_tables::costs(&study.costs)?);
-    artefacts.insert(
-        "agreement.csv".into(),
-        tables::agreement(&summary.agreement)?,
-    );
-    artefacts.insert("summary.json".into(), json(&summary)?);
-    artefacts.insert(RUN_FILE.into(), json(&info)?);
-    artefacts.extend(pull_records(studied, &world, &study, program)?);
-    if let Some((table, result)) = table.zip(table_result.as_ref()) {
-        artefacts.extend(crawl_record(robot, table, result, program)?);
-    }
+}
 
-    let photographed = study
-        .shown
-        .par_iter()
-        .map(|(gait, pull)| {
-            let number = frames_number(&gait.name);
-            frames::of(
-                &world,
-                number,
-                &gait.name,
-                study.showcase_s,
-                &pull.snapshots,
-            )
-        })
-        .collect::<Result<Vec<_>, _>>()?;
-    let mut list = FigureList::default();
-    if let Some((gait, pull)) = study.shown.first()
-        && let Some(first) = pull.snapshots.first()
-        && let Some(middle) = pull.snapshots.get(pull.snapshots.len() / 2)
-    {
-        let start = frames::start(&world, &gait.name, &info.options.start_posture, first)?;
-        list.picture(&mut artefacts, start.figure, start.png);
-        artefacts.insert("figures/crawl.png".into(), frames::cover(&world, middle)?);
-    }
-    for frames in photographed {
-        list.picture(&mut artefacts, frames.figure, frames.png);
-    }
-    if let Some(result) = &table_result {
-        let (world, longest) = (&result.world, &result.longest);
-        let gait = longest
-            .cycles
-            .first()
-            .map_or("", |cycle| cycle.gait.as_str());
-        for frames in crawl::frames::on_its_way(world, gait, longest)? {
+impl Study<'_> {
+    /// Runs the study on the current rayon pool and makes every file of the result but `timing.json`.
+    fn run(&self, program: &Program, watch: &dyn Watch) -> Result<Reproduction, ReproduceError> {
+        let Study {
+            robot, plan, table, ..
+        } = *self;
+        let world = World::new(robot, Regime::TORQUE_STUDY)?;
+        let (study, table_result) = rayon::join(
+            || torque_study::run(&world, plan, watch),
+            || {
+                let result = table.map(|table| table_crawl::run(robot, table, watch));
+                result.transpose()
+            },
+        );
+        let (study, table_result) = (study?, table_result?);
+        let bins = published::torque_bins()?;
+        let agreement = agreement::of(&study.pulls, &bins);
+        let stories = study
+            .pulls
+            .iter()
+            .filter(|pull| (pull.duration_s - study.showcase_s).abs() < 1e-9)
+            .map(contact_story::of)
+            .collect();
+        let experiments = table_result
+            .as_ref()
+            .map_or_else(Vec::new, |result| result.experiments.clone());
+        let showcase = PhaseDuration::new(study.showcase_s)?;
+        let numbers = RobotNumbers::new(world.robot(), plan.gaits(), showcase)?;
+        let summary = Summary {
+            robot: Some(numbers),
+            ..summary::of(&study, agreement, stories, experiments)
+        };
+        let info = RunInfo::of(robot, &world, plan, table.map(TableStudy::info), program);
+
+        let mut artefacts = Artefacts::new();
+        for pull in &study.pulls {
+            let name = format!("torques/{}", record_tables::torque_file_name(pull));
+            artefacts.insert(name, record_tables::torques(pull)?);
+        }
+        artefacts.insert("chains.csv".into(), record_tables::chains(&study.chains)?);
+        artefacts.insert("costs.csv".into(), record_tables::costs(&study.costs)?);
+        artefacts.insert(
+            "agreement.csv".into(),
+            tables::agreement(&summary.agreement)?,
+        );
+        artefacts.insert("summary.json".into(), json(&summary)?);
+        artefacts.insert(RUN_FILE.into(), json(&info)?);
+        artefacts.extend(pull_records(self, &world, &study, program)?);
+        if let Some((table, result)) = table.zip(table_result.as_ref()) {
+            artefacts.extend(crawl_record(robot, table, result, program)?);
+        }
+
+        let photographed = study
+            .shown
+            .par_iter()
+            .map(|(gait, pull)| {
+                let number = frames_number(&gait.name);
+                frames::of(
+                    &world,
+                    number,
+                    &gait.name,
+                    study.showcase_s,
+                    &pull.snapshots,
+                )
+            })
+            .collect::<Result<Vec<_>, _>>()?;
+        let mut list = FigureList::default();
+        if let Some((gait, pull)) = study.shown.first()
+            && let Some(first) = pull.snapshots.first()
+            && let Some(middle) = pull.snapshots.get(pull.snapshots.len() / 2)
+        {
+            let start = frames::start(&world, &gait.name, &info.options.start_posture, first)?;
+            list.picture(&mut artefacts, start.figure, start.png);
+            artefacts.insert("figures/crawl.png".into(), frames::cover(&world, middle)?);
+        }
+        for frames in photographed {
             list.picture(&mut artefacts, frames.figure, frames.png);
         }
+        if let Some(result) = &table_result {
+            let (world, longest) = (&result.world, &result.longest);
+            let gait = longest
+                .cycles
+                .first()
+                .map_or("", |cycle| cycle.gait.as_str());
+            for frames in crawl::frames::on_its_way(world, gait, longest)? {
+                list.picture(&mut artefacts, frames.figure, frames.png);
+            }
+        }
+        list.finish(&mut artefacts)?;
+        // The drawings are those of the report, made from the records as they will be read again.
+        let report = Report::of_artefacts(OWN_NAME, &artefacts, &Thesis)?;
+        artefacts.extend(report.figures()?);
+        artefacts.insert(PAGE_FILE.into(), report.html.into_bytes());
+        let crawling = table_result.map_or(0, |result| result.engine_steps);
+        Ok(Reproduction {
+            artefacts,
+            summary,
+            engine_steps: study.engine_steps + crawling,
+        })
     }
-    list.finish(&mut artefacts)?;
-    // The drawings are those of the report, made from the records as they will be read again.
-    let report = Report::of_artefacts(OWN_NAME, &artefacts, &Thesis)?;
-    artefacts.extend(report.figures()?);
-    artefacts.insert(PAGE_FILE.into(), report.html.into_bytes());
-    let crawling = table_result.map_or(0, |result| result.engine_steps);
-    Ok(Reproduction {
-        artefacts,
-        summary,
-        engine_steps: study.engine_steps + crawling,
-    })
 }
 
 /// Number of the figure that shows the robot over a pull; of an unknown gait, the first one's.
@@ -219,7 +371,7 @@ fn pull_records(
             robot: studied.robot,
             world,
             gait,
-            file: file.map_or(("", ""), |(file, text)| (file, text)),
+            file: file.map_or(("", ""), |text| (&text.file, &text.text)),
             duration_s: study.showcase_s,
             start_posture: &world.robot().study.start_posture,
             pull,

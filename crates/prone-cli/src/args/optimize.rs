@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
-use prone_study::search::pull_form::GaitForm;
+use prone_record::experiment::GaitForm;
 
 use super::named::GaitArg;
-use super::pricing::PricingArgs;
+use super::pull_terms::PullTermsArgs;
 
 #[derive(Debug, clap::Args)]
 #[command(mut_arg("argument", |arg| {
@@ -26,7 +26,7 @@ pub(crate) struct CostArgs {
     #[command(flatten)]
     pub(crate) gait: GaitArg,
     #[command(flatten)]
-    pub(crate) pricing: PricingArgs,
+    pub(crate) terms: PullTermsArgs,
     /// Print {"cost", "torque", "violations", …}
     #[arg(long)]
     pub(crate) json: bool,
@@ -52,7 +52,7 @@ same bytes as a search that was never stopped. The same seed gives the same byte
 threads, except with --time-budget.")]
 pub(crate) struct OptimizeArgs {
     #[command(flatten)]
-    pub(crate) pricing: PricingArgs,
+    pub(crate) terms: PullTermsArgs,
     /// Curves that are searched: `cubic`, or `bspline:N` with N control points each
     #[arg(long, value_name = "FORM", value_parser = gait_form, default_value = "cubic")]
     pub(crate) gait_form: GaitForm,

@@ -5,7 +5,7 @@ use std::io::{Result, Write};
 use prone::robot::BodyPart;
 use prone_record::crawl_summary::CrawlSummary;
 
-pub(super) fn print(summary: &CrawlSummary, out: &mut impl Write) -> Result<()> {
+pub(crate) fn print(summary: &CrawlSummary, out: &mut dyn Write) -> Result<()> {
     let s = summary;
     writeln!(
         out,

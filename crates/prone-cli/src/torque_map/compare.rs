@@ -9,7 +9,7 @@ use prone_study::torque_map::compare::{self, Comparison, MaskCounts, WorstRow};
 use crate::Failure;
 use crate::args::CompareArgs;
 
-pub(super) fn run(args: &CompareArgs) -> Result<(), Failure> {
+pub(crate) fn run(args: &CompareArgs) -> Result<(), Failure> {
     let (a, b) = (super::read(&args.a)?, super::read(&args.b)?);
     let comparison = compare::compare(&a, &b, usize::from(args.worst)).map_err(|error| {
         let (a, b) = (args.a.display(), args.b.display());

@@ -12,7 +12,7 @@ use prone_study::torque_map::plot::{self, MapFile};
 use crate::args::PlotArgs;
 use crate::{Failure, interrupt};
 
-pub(super) fn run(args: &PlotArgs) -> Result<(), Failure> {
+pub(crate) fn run(args: &PlotArgs) -> Result<(), Failure> {
     let name = args.map.display();
     let text = super::text(&args.map)?;
     let map = parse(&text).map_err(|error| Failure::Input(anyhow!("{name}: {error}")))?;

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use prone_files::gaits::Gaits;
 use prone_files::robot_folder::{RobotFiles, Version};
-use prone_files::text_file;
+use prone_files::{FileError, text_file};
 
 /// A robot's two texts.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -23,10 +23,10 @@ pub struct RobotText {
     pub sha256: String,
 }
 
-/// The text of a gait's file: a pull or a cycle.
+/// The text of a file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct GaitText {
-    /// Its file, as the user named it.
+pub struct TextFile {
+    /// Its path, as the user named it, or the name of one that ships.
     pub file: String,
     /// What stands in it.
     pub text: String,
@@ -34,16 +34,11 @@ pub struct GaitText {
     pub sha256: String,
 }
 
+/// The text of a gait's file: a pull or a cycle.
+pub type GaitText = TextFile;
+
 /// The text of a scene's file.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct SceneText {
-    /// Its file, or the name of one that ships.
-    pub file: String,
-    /// What stands in it.
-    pub text: String,
-    /// SHA-256 of that, hexadecimal.
-    pub sha256: String,
-}
+pub type SceneText = TextFile;
 
 /// A text is not the one that its hash is of.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -55,6 +50,17 @@ pub struct ChangedText {
     pub expected: String,
     /// What the text has.
     pub found: String,
+}
+
+/// Why a text does not hold what it should.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum TextError {
+    /// It is not the one that was asked for.
+    #[error(transparent)]
+    Changed(#[from] ChangedText),
+    /// It is malformed.
+    #[error(transparent)]
+    Malformed(#[from] FileError),
 }
 
 impl RobotText {
@@ -95,7 +101,7 @@ impl RobotText {
     }
 }
 
-impl GaitText {
+impl TextFile {
     /// A text and its hash.
     pub fn new(file: &str, text: &str) -> Self {
         Self {
@@ -113,22 +119,16 @@ impl GaitText {
         same(&self.file, &self.sha256, text_file::sha256(&[&self.text]))?;
         Ok(&self.text)
     }
-}
 
-impl SceneText {
-    /// A text and its hash.
-    pub fn new(file: &str, text: &str) -> Self {
-        let GaitText { file, text, sha256 } = GaitText::new(file, text);
-        Self { file, text, sha256 }
-    }
-
-    /// The text, if it is the one that the hash is of.
+    /// What stands in the text, by a parser of its format, which takes file and text.
     ///
     /// # Errors
-    /// [`ChangedText`].
-    pub fn checked(&self) -> Result<&str, ChangedText> {
-        same(&self.file, &self.sha256, text_file::sha256(&[&self.text]))?;
-        Ok(&self.text)
+    /// [`TextError`].
+    pub fn parse<T>(
+        &self,
+        parser: impl FnOnce(&str, &str) -> Result<T, FileError>,
+    ) -> Result<T, TextError> {
+        Ok(parser(&self.file, self.checked()?)?)
     }
 }
 

@@ -6,10 +6,10 @@ use prone::regime::{Regime, Servo};
 use prone::robot::{JointAngles, Robot};
 use prone::scene::{Obstacle, Scene, SceneError, SideFriction};
 use prone::steering::{HeadingHold, TurnTo};
-use prone_files::{FileError, cycle_file, scene_file};
+use prone_files::{cycle_file, scene_file};
 use prone_record::experiment::{
     ChangedText, CrawlExperiment, Detail, Ending, GaitText, SceneChoice, ServoChoice,
-    SteeringChoice,
+    SteeringChoice, TextError,
 };
 use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, End, LimbsError, check_limbs};
 use prone_sim::{LoadError, LoadedRobot, World, WorldError};
@@ -42,15 +42,15 @@ pub struct CrawlSetup {
 /// Why a crawl cannot be simulated as it was asked for.
 #[derive(Debug, thiserror::Error)]
 pub enum CrawlSetupError {
-    /// A text is not the one that was asked for.
+    /// The robot's text is not the one that was asked for.
     #[error(transparent)]
     Changed(#[from] ChangedText),
     /// The robot cannot be loaded.
     #[error(transparent)]
     Robot(#[from] LoadError),
-    /// A cycle or a scene is malformed.
+    /// A cycle or a scene cannot be read.
     #[error(transparent)]
-    Text(#[from] FileError),
+    Text(#[from] TextError),
     /// A scene cannot be built as it was changed.
     #[error(transparent)]
     Scene(#[from] SceneError),
@@ -171,13 +171,12 @@ impl GaitSource {
     /// Parses a cycle's text.
     ///
     /// # Errors
-    /// [`CrawlSetupError::Changed`], [`CrawlSetupError::Text`].
-    pub fn from_text(gait: &GaitText) -> Result<Self, CrawlSetupError> {
-        let text = gait.checked()?;
+    /// [`TextError`].
+    pub fn from_text(gait: &GaitText) -> Result<Self, TextError> {
         Ok(Self {
-            cycle: cycle_file::parse(&gait.file, text)?,
+            cycle: gait.parse(cycle_file::parse)?,
             file: gait.file.clone(),
-            text: text.to_owned(),
+            text: gait.text.clone(),
         })
     }
 
@@ -458,7 +457,7 @@ fn regime(experiment: &CrawlExperiment, robot: &Robot) -> Result<Regime, CrawlSe
 
 fn scene(choice: &SceneChoice) -> Result<Scene, CrawlSetupError> {
     let mut scene = match (&choice.text, choice.plate) {
-        (Some(text), _) => scene_file::parse(&text.file, text.checked()?)?,
+        (Some(text), _) => text.parse(scene_file::parse)?,
         (None, Some((mm, metres))) => Scene::under_plate(mm / 1e3, metres),
         (None, None) => Scene::level(),
     };

@@ -78,6 +78,13 @@ pub enum Clearance {
 }
 
 impl ChainRules {
+    /// No rules.
+    pub const FREE: Self = Self {
+        rate: f64::INFINITY,
+        clearance: Clearance::Free,
+        stops: None,
+    };
+
     /// What a gait breaks.
     pub fn broken(
         &self,

@@ -271,6 +271,11 @@ impl CycleSearch {
             costs: CycleCosts::new(Arc::clone(settings), aim, base)?,
         })
     }
+
+    /// The rules that its cycles are held against.
+    pub const fn rules(&self) -> &CycleRules {
+        &self.costs.aim.rules
+    }
 }
 
 impl Candidates for CycleSearch {

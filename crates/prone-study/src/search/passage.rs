@@ -3,14 +3,11 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use glam::DVec3;
-
-use prone::frames::{Ground, Root, Transform};
 use prone::gait::cycle::Cycle;
-use prone::robot::{ContactGroup, JointAngles, Robot};
+use prone::robot::Robot;
 use prone_record::experiment::PassageSearch;
 use prone_record::frontier::CycleObjective;
-use prone_record::search::{Search, SearchEnd};
+use prone_record::search::{Search, SearchEnd, Solver};
 use prone_sim::LoadedRobot;
 use serde::Serialize;
 
@@ -18,6 +15,7 @@ use super::candidates::Searched;
 use super::candidates::{Candidates as _, Depth};
 use super::cycle_cost::{CycleAim, CycleSearch, Merge};
 use super::cycles::{self, CycleSearchError};
+use super::room::too_low;
 use super::run::SearchError;
 use super::setting::Setting;
 use super::settings;
@@ -71,13 +69,14 @@ pub struct Tried {
 
 impl Passage {
     /// Tries cycles, each with where it comes from, under a ceiling, m, with a margin, m; none is
-    /// crawled where not even a foot fits.
+    /// crawled where not even a foot fits, and none after the watch said stop.
     pub fn try_all<'a>(
         robot: &Robot,
         setting: &Setting,
         cycles: impl IntoIterator<Item = (&'a Cycle, &'a str)>,
         ceiling: f64,
         margin: f64,
+        watch: &dyn Watch,
     ) -> Self {
         let mut passage = Self {
             robot: robot.name.clone(),
@@ -94,7 +93,7 @@ impl Passage {
             passage.limited_by = reason;
             return passage;
         }
-        for (cycle, origin) in cycles {
+        for (cycle, origin) in cycles.into_iter().take_while(|_| !watch.stop()) {
             match try_out(setting, cycle) {
                 Ok(trial) => passage.take(Tried::from_trial(cycle, &trial, ceiling), origin),
                 Err(error) => {
@@ -199,7 +198,7 @@ impl Passage {
         };
         let searched = CycleSearch::new(robot.robot(), &settings, aim, base);
         let searched = searched.map_err(CycleSearchError::from)?;
-        let mut search = Search::about_the_middle(asked.seed, 1, asked.budget);
+        let mut search = Search::new(Solver::AboutTheMiddle, asked.seed, 1, asked.budget);
         let end = search.proceed(&Threads(Searched(&searched)), |search| {
             watch.progress(&Progress::Searching(search));
             if watch.stop() {
@@ -227,61 +226,31 @@ impl Passage {
     }
 }
 
-/// Why no gait of this robot is so low, m, whatever its form.
-pub fn too_low(robot: &Robot, height: f64) -> Option<String> {
-    let foot = foot_length(robot);
-    (foot > height).then(|| {
-        format!(
-            "the foot, {:.1} mm long: with toes planted it passes through the vertical in every closed-chain gait, and {:.1} mm are left",
-            foot * 1e3,
-            height * 1e3
-        )
-    })
-}
-
-/// How long the foot is along its sole, m: its shapes' extent forward in the zero pose, in which a
-/// humanoid stands on flat soles. The longer of both feet.
-pub fn foot_length(robot: &Robot) -> f64 {
-    let upright = Transform::<Ground, Root>::translation(DVec3::ZERO);
-    let poses = robot.forward_kinematics(upright, &JointAngles::zero(robot));
-    let sides = robot.chain.sides().map(|side| {
-        let y = poses.point(side.toe).metres().y;
-        let feet = robot.shapes.iter().filter(|shape| {
-            let body = &robot.bodies[shape.body.0];
-            let centre = (*poses.of(shape.body) * shape.link_from_geom)
-                .origin()
-                .metres();
-            body.contact_group == ContactGroup::Toe && centre.y * y > 0.0
-        });
-        let (mut front, mut back) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
-        for shape in feet {
-            front = front.max(shape.reach_along(poses.of(shape.body), DVec3::X));
-            back = back.max(shape.reach_along(poses.of(shape.body), DVec3::NEG_X));
-        }
-        front + back
-    });
-    sides[0].max(sides[1])
-}
-
 #[cfg(test)]
 mod tests {
     use prone_files::shipped;
     use prone_sim::{LoadedRobot, RobotFiles};
 
     use super::*;
+    use crate::watch::Unwatched;
 
     #[test]
     fn reference_the_foot_decides_at_160_mm() {
         let robot = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
-        // The sole's box in robot.xml is 160.6 mm long.
-        assert!((foot_length(robot.robot()) - 0.1606).abs() < 1e-9);
         let settings = settings::for_advance(&robot).unwrap();
         let cycles: Vec<Cycle> = shipped::cycle_names()
             .map(|name| shipped::cycle(name).unwrap().unwrap())
             .collect();
         let under = |mm: f64| {
             let cycles = cycles.iter().map(|cycle| (cycle, "shipped"));
-            Passage::try_all(robot.robot(), &settings[0], cycles, mm * 1e-3, 3e-3)
+            Passage::try_all(
+                robot.robot(),
+                &settings[0],
+                cycles,
+                mm * 1e-3,
+                3e-3,
+                &Unwatched,
+            )
         };
         let low = under(160.0);
         assert!(!low.feasible && !low.may_be_searched());

@@ -11,11 +11,10 @@
 
 use std::sync::Arc;
 
-use prone::chain::ClosedChain;
 use prone::cost::graded::{self, Norm, Per, Rule, Rules, Violations};
-use prone::cost::objective::{NoMotor, Objective};
-use prone::cost::published::{PublishedObjective, PublishedRules, VIOLATION_COST, WEIGHTS};
-use prone::gait::{Gait, PhaseDuration};
+use prone::cost::objective::NoMotor;
+use prone::cost::published::{PublishedObjective, VIOLATION_COST};
+use prone::gait::Gait;
 use prone::mapping::{ArmMode, Mapping, MappingError};
 use prone::robot::Robot;
 use prone::statics::{Stance, StaticTorques, SupportRule, SymmetryError};
@@ -26,9 +25,10 @@ use prone_sim::World;
 use prone_sim::pull::{self, Keep, Pull, PullError, Start};
 
 use super::candidates::{Candidates, Cost, Depth, PointError, Refusal};
-use super::chain_rules::{self, ChainRules, Clearance, phase, samples};
+use super::chain_rules::{phase, samples};
 use super::published::{self, PublishedProblem, PublishedProblemError};
 use super::pull_form::PullForm;
+use super::pull_terms::{PullAim, PullTerms, Source, per};
 use super::pull_trial::{self, Begun, PullTrialError};
 use crate::torque_map::{NodeGrid, NodeGridError};
 
@@ -40,63 +40,6 @@ const THETA4_MAX_DEG: f64 = 27.5;
 /// Intervals of a phase whose torques are looked up, as in the published objective. The rules are
 /// held against a finer grid.
 const INTERVALS: usize = 100;
-
-/// What is minimised.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum PullAim {
-    /// The published cost: violated samples, then torque.
-    Published(PublishedRules),
-    /// Torque, with violations graded and kept apart.
-    Graded(Objective),
-}
-
-/// Where torques come from.
-#[derive(Debug, Clone)]
-pub enum Source {
-    /// A table of them.
-    Map {
-        /// The table.
-        map: Arc<TorqueMap>,
-        /// Its file, as the user named it.
-        file: String,
-        /// Of the file's text.
-        sha256: String,
-    },
-    /// The static solver.
-    Statics,
-    /// A simulation of each gait.
-    Dynamics,
-}
-
-/// Whether a cost is per phase or per metre of planned advance.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Share {
-    /// One phase.
-    Phase,
-    /// One metre.
-    Metre,
-}
-
-/// Everything that decides a cost.
-#[derive(Debug, Clone)]
-pub struct PullTerms {
-    /// What is minimised.
-    pub aim: PullAim,
-    /// Where torques come from.
-    pub source: Source,
-    /// The gait whose mapping, arms and ends hold.
-    pub base: Gait,
-    /// Per phase or per metre.
-    pub share: Share,
-    /// What the planned chain keeps to.
-    pub rules: ChainRules,
-    /// How long a pull lasts. A phase of equal postures costs in proportion to it.
-    pub duration: PhaseDuration,
-    /// Largest share of the weight on trunk and legs in simulation, 0 to 1.
-    pub body_share: f64,
-    /// The gait whose share that is, where it is one's.
-    pub body_share_of: Option<String>,
-}
 
 /// Costs of gaits that share mapping and arms.
 #[derive(Debug)]
@@ -152,67 +95,6 @@ pub enum PullCostError {
     /// The statics needs a mirrored robot.
     #[error(transparent)]
     Symmetry(#[from] SymmetryError),
-}
-
-/// A gait that has no cost per metre.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum AdvanceError {
-    /// Its mapping does not fit the robot.
-    #[error(transparent)]
-    Mapping(#[from] MappingError),
-    /// The ends of its upper arm's curve do not carry the shoulder forward.
-    #[error(
-        "gait {gait} has no price per metre: its shoulder advances {advance_mm:.1} mm in a pull"
-    )]
-    NoAdvance {
-        /// The gait's name.
-        gait: String,
-        /// Planned advance, mm.
-        advance_mm: f64,
-    },
-}
-
-impl PullAim {
-    /// The torque objective, the published one's weights included.
-    pub const fn objective(&self) -> Objective {
-        match self {
-            Self::Graded(objective) => *objective,
-            Self::Published(_) => Objective::Torque { weights: WEIGHTS },
-        }
-    }
-}
-
-impl Source {
-    /// In a word: of a file its name, wherever it is.
-    pub fn name(&self) -> &str {
-        match self {
-            Self::Map { file, .. } => {
-                let name = std::path::Path::new(file).file_name();
-                name.and_then(|name| name.to_str()).unwrap_or(file)
-            }
-            Self::Statics => "statics",
-            Self::Dynamics => "dynamics",
-        }
-    }
-}
-
-impl Share {
-    /// Name in files and records.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Phase => "phase",
-            Self::Metre => "metre",
-        }
-    }
-
-    fn of(self, chain: &ClosedChain, gait: &Gait) -> Per {
-        match self {
-            Self::Phase => Per::Phase,
-            Self::Metre => Per::Metre {
-                advance: advance(chain, gait),
-            },
-        }
-    }
 }
 
 impl PullCosts {
@@ -325,7 +207,7 @@ impl PullCosts {
         };
         let samples = samples(gait, INTERVALS);
         let (chain, phase) = (mapping.chain(), phase(&samples, self.terms.duration));
-        let per = self.terms.share.of(chain, gait);
+        let per = per(self.terms.share, chain, gait);
         let price = graded::price(chain, phase, torques, &none, norm, per);
         let gaps = price.violations.iter();
         for (rule, excess) in gaps.filter(|(rule, _)| *rule == Rule::Torque) {
@@ -351,7 +233,7 @@ impl PullCosts {
             Ok(trial) => trial,
             Err(error) => return unsimulated(violations, Some(error)),
         };
-        let torque = match terms.share.of(mapping.chain(), gait) {
+        let torque = match per(terms.share, mapping.chain(), gait) {
             Per::Phase => torque,
             Per::Metre { advance } => torque / advance,
         };
@@ -488,57 +370,4 @@ fn statics(world: &World, base: &Gait) -> Result<StaticTorques<Arc<Robot>>, Pull
     let mapping = Mapping::new(&robot, base.mapping, base.arm)?;
     let stance = Stance::unsqueezed(supports);
     Ok(StaticTorques::new(robot, mapping, world.stops(), stance)?)
-}
-
-/// How far the shoulder of the planned chain advances, m.
-fn advance(chain: &ClosedChain, gait: &Gait) -> f64 {
-    let arm = |s: f64| gait.upper_arm.value(s).cos();
-    chain.shoulder_to_elbow * (arm(0.0) - arm(1.0))
-}
-
-/// Shortest advance that a cost is divided by, m.
-const SHORTEST_ADVANCE: f64 = 1e-3;
-
-/// Whether a gait, and with it every one whose upper arm has the same ends, has a cost per metre.
-///
-/// # Errors
-/// [`AdvanceError`].
-pub fn check_advance(robot: &Robot, gait: &Gait) -> Result<(), AdvanceError> {
-    let mapping = Mapping::new(robot, gait.mapping, gait.arm)?;
-    let advance = advance(mapping.chain(), gait);
-    if advance >= SHORTEST_ADVANCE {
-        return Ok(());
-    }
-    Err(AdvanceError::NoAdvance {
-        gait: gait.name.clone(),
-        advance_mm: advance * 1e3,
-    })
-}
-
-/// What a hip may be lower than the base gait's, m: the published gaits print five digits of the
-/// same first pose, which is 5e-7 m.
-const HIP_TOLERANCE: f64 = 1e-5;
-
-/// The lowest hip of a gait's planned chain, m: a clearance that gaits about it can keep.
-///
-/// # Errors
-/// [`MappingError`].
-pub fn lowest_hip(world: &World, gait: &Gait) -> Result<Clearance, MappingError> {
-    let mapping = Mapping::new(world.robot(), gait.mapping, gait.arm)?;
-    let chain = mapping.chain();
-    let heights = samples(gait, chain_rules::INTERVALS)
-        .into_iter()
-        .filter_map(|at| chain.close(at).ok())
-        .map(|angles| chain.posture(&angles).hip.z());
-    let lowest = heights.fold(f64::INFINITY, f64::min);
-    Ok(Clearance::Hip(lowest - HIP_TOLERANCE))
-}
-
-/// The share of the weight on trunk and legs in a gait's simulated pull, 0 to 1.
-///
-/// # Errors
-/// [`PullError`] where it cannot be simulated.
-pub fn body_share(world: &World, gait: &Gait, duration: PhaseDuration) -> Result<f64, PullError> {
-    let pull = pull::run(world, gait, duration, Start::FirstPose, Keep::Rows)?;
-    Ok(pull_trial::body_share(&pull))
 }

@@ -16,26 +16,7 @@ use prone::chain::GaitParameters;
 use prone::gait::{Curve, CurveError, Gait};
 use prone_optim::{Interval, IntervalError};
 
-/// Which curves are searched.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum GaitForm {
-    /// The thesis': one cubic per parameter.
-    Cubic,
-    /// Cubic B-splines.
-    BSpline {
-        /// Control points per parameter, 4 or more.
-        points: usize,
-    },
-}
-
-/// Whether θ3 and θ4 keep the base gait's values at the ends of the phase.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ends {
-    /// They do.
-    Fixed,
-    /// They do not.
-    Free,
-}
+pub use prone_record::experiment::{Ends, GaitForm};
 
 /// Degree of the B-splines.
 const DEGREE: usize = 3;
@@ -46,35 +27,6 @@ const LEG_REACH: f64 = std::f64::consts::FRAC_PI_3;
 
 /// The same for α, rad: 45°. The upper arm sweeps 60° in a phase.
 const ARM_REACH: f64 = std::f64::consts::FRAC_PI_4;
-
-impl GaitForm {
-    /// Numbers per curve.
-    pub const fn numbers(self) -> usize {
-        match self {
-            Self::Cubic => 4,
-            Self::BSpline { points } => points,
-        }
-    }
-}
-
-impl std::fmt::Display for GaitForm {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Cubic => f.write_str("cubic"),
-            Self::BSpline { points } => write!(f, "bspline:{points}"),
-        }
-    }
-}
-
-impl Ends {
-    /// Name in files and records.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Fixed => "fixed",
-            Self::Free => "free",
-        }
-    }
-}
 
 /// Why a form cannot be searched.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -88,6 +40,14 @@ pub enum FormError {
     /// The base gait's ends are no numbers.
     #[error("the base gait cannot be searched around: {0}")]
     Base(#[from] IntervalError),
+}
+
+/// How many numbers a curve has.
+const fn numbers_per_curve(form: GaitForm) -> usize {
+    match form {
+        GaitForm::Cubic => 4,
+        GaitForm::BSpline { points } => points,
+    }
 }
 
 /// A box of numbers and the gaits they stand for.
@@ -107,9 +67,9 @@ impl PullForm {
     /// # Errors
     /// [`FormError`].
     pub fn new(form: GaitForm, ends: Ends, base: &Gait) -> Result<Self, FormError> {
-        if !(4..=32).contains(&form.numbers()) {
+        if !(4..=32).contains(&numbers_per_curve(form)) {
             return Err(FormError::Points {
-                points: form.numbers(),
+                points: numbers_per_curve(form),
             });
         }
         let (start, end) = (parts(base.parameters(0.0)), parts(base.parameters(1.0)));
@@ -118,7 +78,7 @@ impl PullForm {
         for (curve, [start, end]) in fixed.into_iter().enumerate() {
             let reach = if curve == ARM { ARM_REACH } else { LEG_REACH };
             for number in searched(form, ends, curve) {
-                let s = number as f64 / (form.numbers() - 1) as f64;
+                let s = number as f64 / (numbers_per_curve(form) - 1) as f64;
                 let middle = start + s * (end - start);
                 bounds.push(Interval::new(middle - reach, middle + reach)?);
             }
@@ -154,7 +114,7 @@ impl PullForm {
     pub fn gait(&self, point: &[f64]) -> Result<Gait, CurveError> {
         let mut numbers = point.iter().copied();
         let mut curve = |curve: usize| {
-            let mut values = vec![f64::NAN; self.form.numbers()];
+            let mut values = vec![f64::NAN; numbers_per_curve(self.form)];
             if let ([first, .., last], [start, end]) = (&mut values[..], self.fixed[curve]) {
                 (*first, *last) = (start, end);
             }
@@ -185,7 +145,7 @@ const fn parts(at: GaitParameters) -> [f64; 3] {
 
 /// Which of a curve's numbers are searched.
 fn searched(form: GaitForm, ends: Ends, curve: usize) -> std::ops::Range<usize> {
-    let last = form.numbers() - 1;
+    let last = numbers_per_curve(form) - 1;
     if curve != ARM && ends == Ends::Free {
         0..last + 1
     } else {

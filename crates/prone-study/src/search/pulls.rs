@@ -1,34 +1,33 @@
 //! Searching pulls: by any of the torque sources, confirmed at other durations and in both contact
 //! regimes.
 
-use prone::gait::{CheckedTrajectory, Gait, PhaseDuration};
+use prone::gait::{CheckedTrajectory, Gait, PhaseDuration, PhaseDurationError};
 use prone::regime::Regime;
-use prone_files::{gait_file, text_file};
+use prone_files::gait_file;
 use prone_optim::Candidate;
 use prone_record::curves_info::CurvesInfo;
+use prone_record::experiment::{Ends, GaitForm, PullSearchExperiment, TextError};
 use prone_record::gait_search::{
     self, Compared, Confirmation, Outcome, Priced, Refusal, RunOutcome, Verdict,
 };
 use prone_record::output::Artefacts;
-use prone_record::program::RobotInfo;
+use prone_record::program::Program;
 use prone_record::search::{Search, SearchEnd, SeededRun};
-use prone_record::search_plan::{
-    ClearancePlan, GradedPlan, PullAimPlan, PullCostPlan, PullPlan, SearchHead, SearchPlan,
-    SourcePlan,
-};
+use prone_record::search_plan::{PullPlan, SearchHead, SearchPlan};
+use prone_record::search_result::SearchResult;
 use prone_record::tables;
 use prone_report::figures::{self, ConfirmedRecord, Scores, SearchRecord};
 use prone_sim::{LoadedRobot, World, WorldError};
 
 use super::candidates::{Candidates as _, Depth, Refusal as NoCost};
-use super::chain_rules::{Clearance, INTERVALS};
+use super::chain_rules::INTERVALS;
 use super::confirm::{self, PullSetting};
-use super::pull_cost::{PullAim, PullCosts, PullSearch, Source};
-use super::pull_form::PullForm;
+use super::pull_cost::{PullCostError, PullCosts, PullSearch};
+use super::pull_form::{FormError, PullForm};
+use super::pull_terms::{PullAim, PullTerms, PullTermsError, can_follow};
 use super::run::{Job, SearchError, SearchRun, draw};
 use crate::pulls;
 use crate::watch::Watch;
-use prone::cost::objective::Objective;
 
 /// A search of pulls.
 #[derive(Debug)]
@@ -43,51 +42,92 @@ pub struct PullRun {
     confirmation: Vec<PullSetting>,
 }
 
-/// Under which name a found pull is confirmed, beside what, and how fast.
-#[derive(Debug, Clone)]
-pub struct PullConfirmation {
-    /// Name of the found gait.
-    pub name: String,
-    /// Other gaits, the base gait first.
-    pub compared: Vec<Gait>,
-    /// How long pulls last.
-    pub durations: Vec<PhaseDuration>,
+/// Why pulls cannot be searched.
+#[derive(Debug, thiserror::Error)]
+pub enum PullSearchError {
+    /// The robot does not compile with its floor.
+    #[error(transparent)]
+    World(#[from] WorldError),
+    /// A gait cannot be read.
+    #[error(transparent)]
+    Text(#[from] TextError),
+    /// Costs cannot be made of what was asked for.
+    #[error(transparent)]
+    Terms(#[from] PullTermsError),
+    /// Pulls have no costs.
+    #[error(transparent)]
+    Costs(#[from] PullCostError),
+    /// The form cannot be searched.
+    #[error(transparent)]
+    Form(#[from] FormError),
+    /// The published problem is one of six coefficients.
+    #[error("the objective `published` has a cost for cubics with fixed ends only")]
+    PublishedForm,
+    /// The confirmation tells gaits apart by their names.
+    #[error("the found gait would be called {name:?}, like one that it is compared with")]
+    NameTaken {
+        /// The name.
+        name: String,
+    },
+    /// A duration that no pull can have.
+    #[error(transparent)]
+    Duration(#[from] PhaseDurationError),
 }
 
 impl PullRun {
-    /// Prepares a search; `head` says by whom, with which seeds and budget.
+    /// Prepares a search.
     ///
     /// # Errors
-    /// [`WorldError`].
+    /// [`PullSearchError`].
     pub fn new(
+        experiment: &PullSearchExperiment,
         robot: &LoadedRobot,
-        costs: PullCosts,
-        form: PullForm,
-        confirmation: PullConfirmation,
-        mut head: SearchHead,
-    ) -> Result<Self, WorldError> {
-        let PullConfirmation {
-            name,
-            compared,
-            durations,
-        } = confirmation;
+        program: &Program,
+    ) -> Result<Self, PullSearchError> {
+        let world = World::new(robot, Regime::TORQUE_STUDY)?;
+        let terms = PullTerms::new(&experiment.terms, &world)?;
+        let (form, ends) = (experiment.form, experiment.ends);
+        let published = matches!(terms.aim, PullAim::Published(_));
+        if published && (form != GaitForm::Cubic || ends == Ends::Free) {
+            return Err(PullSearchError::PublishedForm);
+        }
+        let name = experiment.name.clone();
+        let mut compared = vec![terms.base.clone()];
+        let mut taken = terms.base.name == name;
+        for gait in &experiment.compared {
+            let gait = gait.parse(gait_file::parse)?;
+            taken |= gait.name == name;
+            let twice = compared.iter().any(|other| other.name == gait.name);
+            if !twice && can_follow(robot.robot(), &gait) {
+                compared.push(gait);
+            }
+        }
+        if taken {
+            return Err(PullSearchError::NameTaken { name });
+        }
+        let durations = experiment.confirm_durations_s.iter();
+        let durations = durations.map(|&seconds| PhaseDuration::new(seconds));
+        let durations: Vec<PhaseDuration> = durations.collect::<Result<_, _>>()?;
+        let costs = PullCosts::new(&world, terms)?;
         let base = &costs.terms().base;
-        head.base_sha256.insert(
-            base.name.clone(),
-            text_file::sha256(&[&gait_file::write(base, "")]),
+        let form = PullForm::new(form, ends, base)?;
+        let mut head = SearchHead::new(
+            program,
+            "optimize",
+            prone_sim::engine_version(),
+            experiment.solver,
+            experiment.runs,
         );
+        head.add_base(&base.name, &gait_file::write(base, ""));
         let plan = SearchPlan::Pull(Box::new(PullPlan {
             head,
-            pricing: cost_plan(&costs, robot),
+            pricing: costs.terms().plan(&world, robot),
             form: form.form().to_string(),
             ends: form.ends().name().to_owned(),
             name: name.clone(),
             confirm_durations_s: durations.iter().map(|it| it.seconds()).collect(),
         }));
-        let worlds = [
-            costs.world().clone(),
-            World::new(robot, Regime::LOCOMOTION)?,
-        ];
+        let worlds = [world, World::new(robot, Regime::LOCOMOTION)?];
         let confirmation = worlds.iter().flat_map(|world| {
             let setting = |&duration| PullSetting {
                 world: world.clone(),
@@ -262,7 +302,6 @@ impl PullRun {
 
 impl SearchRun for PullRun {
     type Candidates = PullSearch;
-    type Outcome = Outcome;
 
     fn plan(&self) -> &SearchPlan {
         &self.plan
@@ -277,7 +316,7 @@ impl SearchRun for PullRun {
         searches: &[Search],
         end: SearchEnd,
         watch: &dyn Watch,
-    ) -> Result<(Outcome, Artefacts), SearchError> {
+    ) -> Result<(SearchResult, Artefacts), SearchError> {
         let nothing = SearchError::Nothing {
             budget: searches.iter().map(Search::allowance).sum(),
         };
@@ -293,7 +332,7 @@ impl SearchRun for PullRun {
         let confirmation = confirm::pulls(&gaits, &self.confirmation, &objective, watch)?;
         let outcome = self.outcome(searched, search, run.seed, end, &gait, &confirmation)?;
         let artefacts = self.files(searched, search, &gaits, &outcome, &confirmation)?;
-        Ok((outcome, artefacts))
+        Ok((SearchResult::Pulls(Box::new(outcome)), artefacts))
     }
 }
 
@@ -317,57 +356,4 @@ fn clamps(searched: &PullSearch, gait: &Gait) -> Option<String> {
     });
     let clamped: Vec<_> = clamped.collect();
     (!clamped.is_empty()).then(|| format!("Clamped at its limit: {}.", clamped.join(", ")))
-}
-
-/// What pulls cost, as a plan says it.
-fn cost_plan(costs: &PullCosts, robot: &LoadedRobot) -> PullCostPlan {
-    let terms = costs.terms();
-    let graded = |weights| GradedPlan {
-        weights,
-        per: terms.share.name().to_owned(),
-        duration_s: terms.duration.seconds(),
-        rate_deg_per_phase: Some(terms.rules.rate.to_degrees()).filter(|rate| rate.is_finite()),
-        clearance: match terms.rules.clearance {
-            Clearance::Free => ClearancePlan::None,
-            Clearance::Hip(height) => ClearancePlan::HipMm(height * 1e3),
-            Clearance::Body(height) => ClearancePlan::BodyMm(height * 1e3),
-        },
-        limits: if terms.rules.stops.is_some() {
-            "base"
-        } else {
-            "none"
-        }
-        .to_owned(),
-        body_share_of: terms.body_share_of.clone(),
-        body_share_percent: terms
-            .body_share_of
-            .as_ref()
-            .map(|_| terms.body_share * 100.0),
-        regime: costs.world().regime().name.to_owned(),
-        start: "the gait's own first pose, settled".to_owned(),
-    };
-    PullCostPlan {
-        aim: match terms.aim {
-            PullAim::Published(rules) => PullAimPlan::Published {
-                hip_threshold_mm: rules.hip_threshold * 1e3,
-                limit_tolerance_rad: rules.limit_tolerance,
-            },
-            PullAim::Graded(Objective::Torque { weights }) => {
-                PullAimPlan::Torque(graded(Some(weights)))
-            }
-            PullAim::Graded(Objective::Peak) => PullAimPlan::Peak(graded(None)),
-            PullAim::Graded(Objective::Heat) => PullAimPlan::Heat(graded(None)),
-        },
-        source: match &terms.source {
-            Source::Map { file, sha256, .. } => SourcePlan::Map {
-                file: file.clone(),
-                sha256: sha256.clone(),
-            },
-            other => SourcePlan::Named(other.name().to_owned()),
-        },
-        from: terms.base.name.clone(),
-        mapping: terms.base.mapping.name().to_owned(),
-        arm: terms.base.arm.name().to_owned(),
-        robot: RobotInfo::of(robot.robot(), robot.files()),
-    }
 }

@@ -6,8 +6,10 @@ use std::time::{Duration, Instant};
 
 use prone_optim::Threads;
 use prone_record::output::Artefacts;
+use prone_record::resumption::{ResumptionError, Snapshot};
 use prone_record::search::{Search, SearchEnd};
 use prone_record::search_plan::SearchPlan;
+use prone_record::search_result::SearchResult;
 use prone_report::figure_list::FigureList;
 use prone_report::figures::{Figure, FigureError, PNG_SCALE};
 use serde::Serialize;
@@ -32,8 +34,6 @@ pub struct Job<C> {
 pub trait SearchRun: Send + Sync + 'static {
     /// What is searched.
     type Candidates: Candidates;
-    /// What `result.json` says.
-    type Outcome: Serialize;
 
     /// What was asked for: `run.json`.
     fn plan(&self) -> &SearchPlan;
@@ -50,7 +50,7 @@ pub trait SearchRun: Send + Sync + 'static {
         searches: &[Search],
         end: SearchEnd,
         watch: &dyn Watch,
-    ) -> Result<(Self::Outcome, Artefacts), SearchError>;
+    ) -> Result<(SearchResult, Artefacts), SearchError>;
 }
 
 /// Why a search has no result.
@@ -68,6 +68,9 @@ pub enum SearchError {
     /// A found point makes no gait.
     #[error(transparent)]
     Point(#[from] PointError),
+    /// The checkpoint cannot be written.
+    #[error(transparent)]
+    Checkpoint(#[from] ResumptionError),
     /// What was found has no figures of a confirmation.
     #[error(transparent)]
     Confirm(ConfirmError),
@@ -91,37 +94,19 @@ impl From<ConfirmError> for SearchError {
     }
 }
 
-/// Why a run ended without a result.
-#[derive(Debug)]
-pub enum RunError<E> {
-    /// Its checkpoint cannot be written.
-    Checkpoint(E),
-    /// The search itself.
-    Search(SearchError),
-}
-
 /// A search that is done.
 #[derive(Debug)]
-pub struct Done<O> {
+pub struct Done {
     /// What `result.json` says.
-    pub outcome: O,
+    pub result: SearchResult,
     /// All files of the result folder.
     pub artefacts: Artefacts,
     /// Whether every run came to its own end, or the time was over.
     pub end: SearchEnd,
 }
 
-/// When a checkpoint is due.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Due {
-    /// If the last one is old.
-    NowAndThen,
-    /// In any case.
-    Now,
-}
-
-/// Writes checkpoints: all searches of a run, one a job.
-pub type Keep<'k, E> = dyn FnMut(&[&Search], Due) -> Result<(), E> + 'k;
+/// Where searches are kept between generations: all of a run, one a job.
+pub type Checkpoint = Snapshot<Vec<Search>>;
 
 /// Searches that have not begun, one a job.
 pub fn begin<R: SearchRun>(run: &R) -> Vec<Search> {
@@ -132,34 +117,33 @@ pub fn begin<R: SearchRun>(run: &R) -> Vec<Search> {
 /// Goes on with searches on the current rayon pool, from wherever they are, to the result.
 ///
 /// # Errors
-/// [`RunError`]; a search that was stopped has been given to `keep`.
-pub fn run<R: SearchRun, E>(
+/// [`SearchError`]; a search that was stopped is in its checkpoint, where there is one.
+pub fn run<R: SearchRun>(
     run: &R,
     searches: &mut [Search],
     time: Option<Duration>,
     watch: &dyn Watch,
-    keep: &mut Keep<'_, E>,
-) -> Result<Done<R::Outcome>, RunError<E>> {
+    mut checkpoint: Option<&mut Checkpoint>,
+) -> Result<Done, SearchError> {
     let started = Instant::now();
     let evaluations = |searches: &[Search]| searches.iter().map(Search::evaluations).sum::<u64>();
     let before = evaluations(searches);
     let mut end = SearchEnd::Finished;
     for (index, job) in run.jobs().iter().enumerate().take(searches.len()) {
         let out_of_time = || time.is_some_and(|time| started.elapsed() >= time);
-        end = proceed(&job.candidates, searches, index, watch, &out_of_time, keep)
-            .map_err(RunError::Checkpoint)?;
+        let kept = checkpoint.as_deref_mut();
+        end = proceed(&job.candidates, searches, index, watch, &out_of_time, kept)?;
         if watch.stop() {
-            return Err(RunError::Search(SearchError::Stopped));
+            return Err(SearchError::Stopped);
         }
         if end == SearchEnd::Interrupted {
             break;
         }
     }
     let searched = started.elapsed();
-    let concluded = run.conclude(searches, end, watch);
-    let (outcome, mut artefacts) = concluded.map_err(RunError::Search)?;
+    let (result, mut artefacts) = run.conclude(searches, end, watch)?;
     if watch.stop() {
-        return Err(RunError::Search(SearchError::Stopped));
+        return Err(SearchError::Stopped);
     }
     let timing = json!({
         "wall_s": started.elapsed().as_secs_f64(),
@@ -167,41 +151,41 @@ pub fn run<R: SearchRun, E>(
         "evaluations": evaluations(searches) - before,
         "threads": rayon::current_num_threads(),
     });
-    let mut files = || -> Result<(), SearchError> {
-        artefacts.insert("timing.json".into(), pretty(&timing)?);
-        let plan = serde_json::to_value(run.plan())?;
-        artefacts.insert("run.json".into(), pretty(&plan)?);
-        artefacts.insert("result.json".into(), pretty(&outcome)?);
-        Ok(())
-    };
-    files().map_err(RunError::Search)?;
+    artefacts.insert("timing.json".into(), pretty(&timing)?);
+    let plan = serde_json::to_value(run.plan())?;
+    artefacts.insert("run.json".into(), pretty(&plan)?);
+    artefacts.insert("result.json".into(), pretty(&result)?);
     Ok(Done {
-        outcome,
+        result,
         artefacts,
         end,
     })
 }
 
 /// Goes on with one search, and leaves a checkpoint of all.
-fn proceed<C: Candidates, E>(
+fn proceed<C: Candidates>(
     candidates: &C,
     searches: &mut [Search],
     index: usize,
     watch: &dyn Watch,
     out_of_time: &dyn Fn() -> bool,
-    keep: &mut Keep<'_, E>,
-) -> Result<SearchEnd, E> {
+    mut checkpoint: Option<&mut Checkpoint>,
+) -> Result<SearchEnd, ResumptionError> {
     let (before, rest) = searches.split_at_mut(index);
     let Some((search, after)) = rest.split_first_mut() else {
         return Ok(SearchEnd::Finished);
     };
     watch.progress(&Progress::Searching(search));
+    let all = |search: &Search| -> Vec<Search> {
+        let around = before.iter().chain([search]).chain(after.iter());
+        around.cloned().collect()
+    };
     let mut kept = Ok(());
     let end = search.proceed(&Threads(Searched(candidates)), |search| {
         watch.progress(&Progress::Searching(search));
         // A budget too small for one generation leaves nothing to keep.
-        if search.best().is_some() {
-            kept = keep(&all(before, search, after), Due::NowAndThen);
+        if let (Some(checkpoint), true) = (&mut checkpoint, search.best().is_some()) {
+            kept = checkpoint.keep(&all(search));
         }
         if kept.is_err() || out_of_time() || watch.stop() {
             ControlFlow::Break(())
@@ -210,15 +194,11 @@ fn proceed<C: Candidates, E>(
         }
     });
     kept?;
-    if search.best().is_some() || watch.stop() {
-        // The confirmation may still be stopped.
-        keep(&all(before, search, after), Due::Now)?;
+    // The confirmation may still be stopped.
+    if let (Some(checkpoint), true) = (checkpoint, search.best().is_some() || watch.stop()) {
+        checkpoint.write(&all(search))?;
     }
     Ok(end)
-}
-
-fn all<'a>(before: &'a [Search], search: &'a Search, after: &'a [Search]) -> Vec<&'a Search> {
-    before.iter().chain([search]).chain(after).collect()
 }
 
 /// A record as a file.

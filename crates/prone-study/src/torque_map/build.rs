@@ -1,6 +1,6 @@
 //! Measuring every node of a map, on all threads, with a journal.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use rayon::prelude::*;
@@ -15,8 +15,9 @@ use prone_sim::{World, WorldError};
 
 use super::gauge::{self, Entry, Gauge, SettledGauge, StaticGauge};
 use super::job::REGIME;
-use super::{Job, KeptRow, Source};
+use super::{Job, KeptRow};
 use crate::watch::{Progress, Watch};
+use prone_record::experiment::MapSource;
 
 /// A map, ready to be put in place.
 #[derive(Debug)]
@@ -25,8 +26,8 @@ pub struct Built {
     pub text: String,
     /// What is in it.
     pub summary: Summary,
-    /// To be removed once the file is in place.
-    pub journal: Journal<KeptRow>,
+    /// To be removed once the file is in place; `None` where rows were kept in memory.
+    pub journal: Option<Journal<KeptRow>>,
 }
 
 /// What is in a map.
@@ -66,31 +67,42 @@ pub enum BuildError {
         kept: usize,
         /// Rows of the map.
         rows: usize,
+        /// The journal, where there is one.
+        journal: Option<PathBuf>,
     },
 }
 
-/// Builds a map on the current rayon pool, to be put at `out`, beside which its journal is. Its text
-/// depends on the job alone, not on threads or on what the journal held.
+impl BuildError {
+    /// Whether the work failed, and not what was asked for.
+    pub const fn is_work(&self) -> bool {
+        matches!(
+            self,
+            Self::Grid(_) | Self::Journal(ResumptionError::Write(_)) | Self::Stopped { .. }
+        )
+    }
+}
+
+/// Builds a map on the current rayon pool. Where it has a place, its journal is beside that, and is
+/// taken up or not. Its text depends on the job alone, not on threads or on what the journal held.
 ///
 /// # Errors
 /// [`BuildError`]; rows that were measured are then in the journal.
 pub fn run(
     job: &Job<'_>,
-    out: &Path,
-    opening: Opening,
+    place: Option<(&Path, Opening)>,
     watch: &dyn Watch,
 ) -> Result<Built, BuildError> {
     let robot: &Robot = job.robot.robot();
     let mapping = job.mapping.clone();
     // The journal is opened last: what cannot be measured leaves none.
-    let open = || open(job, out, opening);
+    let open = || open(job, place);
     let (entries, journal) = match job.source {
-        Source::Statics => {
+        MapSource::Statics => {
             let stance = Stance::unsqueezed(SupportRule::AnyShape);
             let source = StaticTorques::new(robot, mapping, &robot.study_stops(), stance)?;
             measure(job, &StaticGauge { robot, source }, open()?, watch)?
         }
-        Source::Simulation => {
+        MapSource::Simulation => {
             let world = World::new(job.robot, REGIME)?;
             let source = SettledTorques::new(&world, mapping);
             let gauge = SettledGauge {
@@ -118,32 +130,37 @@ pub fn run(
     })
 }
 
-/// The journal of a map, and the rows that it holds, in the grid's order.
-fn open(
-    job: &Job<'_>,
-    out: &Path,
-    opening: Opening,
-) -> Result<(Journal<KeptRow>, Vec<Option<Entry>>), ResumptionError> {
-    let (journal, kept) = Journal::<KeptRow>::open(Work::TorqueMap, out, &job.identity(), opening)?;
+/// Where measured rows are kept, and those that were kept before, in the grid's order.
+type Kept = (Option<Journal<KeptRow>>, Vec<Option<Entry>>);
+
+fn open(job: &Job<'_>, place: Option<(&Path, Opening)>) -> Result<Kept, ResumptionError> {
     let mut entries = vec![None; job.rows()];
+    let Some((out, opening)) = place else {
+        return Ok((None, entries));
+    };
+    let (journal, kept) = Journal::<KeptRow>::open(Work::TorqueMap, out, &job.identity(), opening)?;
     for (line, row) in kept.iter().enumerate() {
         let (index, entry) = row.entry();
         let place = entries.get_mut(index);
         *place.ok_or_else(|| journal.impossible(line, row))? = Some(entry);
     }
-    Ok((journal, entries))
+    Ok((Some(journal), entries))
 }
 
 /// Entries in the grid's order: those of the journal, and measured ones for the rest.
 fn measure(
     job: &Job<'_>,
     gauge: &impl Gauge,
-    (journal, mut entries): (Journal<KeptRow>, Vec<Option<Entry>>),
+    (journal, mut entries): Kept,
     watch: &dyn Watch,
-) -> Result<(Vec<Entry>, Journal<KeptRow>), BuildError> {
+) -> Result<(Vec<Entry>, Option<Journal<KeptRow>>), BuildError> {
     let rows = job.rows();
     let missing: Vec<usize> = (0..rows).filter(|row| entries[*row].is_none()).collect();
-    watch.progress(&Progress::TakenOver(rows - missing.len()));
+    watch.progress(&Progress::Measuring {
+        rows,
+        taken_over: rows - missing.len(),
+        journal: journal.as_ref().map(Journal::path),
+    });
     let journal = Mutex::new(journal);
     let measured: Result<Vec<Option<(usize, Entry)>>, ResumptionError> = missing
         .par_iter()
@@ -153,15 +170,17 @@ fn measure(
                 return Ok(None);
             }
             let entry = gauge::entry(gauge, job.grid.grid().node(row));
-            let mut journal = journal.lock().unwrap_or_else(PoisonError::into_inner);
-            journal.append(&KeptRow::new(row, &entry))?;
-            drop(journal);
+            if let Some(journal) = &mut *journal.lock().unwrap_or_else(PoisonError::into_inner) {
+                journal.append(&KeptRow::new(row, &entry))?;
+            }
             watch.progress(&Progress::Done(1));
             Ok(Some((row, entry)))
         })
         .collect();
     let mut journal = journal.into_inner().unwrap_or_else(PoisonError::into_inner);
-    journal.flush()?;
+    if let Some(journal) = &mut journal {
+        journal.flush()?;
+    }
     for (row, entry) in measured?.into_iter().flatten() {
         entries[row] = Some(entry);
     }
@@ -169,13 +188,15 @@ fn measure(
     if done.len() == rows {
         return Ok((done, journal));
     }
-    if done.is_empty() {
+    let path = journal.as_ref().map(|journal| journal.path().to_owned());
+    if let (Some(journal), true) = (journal, done.is_empty()) {
         // One that stays is taken over with its no rows.
         let _ = journal.remove();
     }
     Err(BuildError::Stopped {
         kept: done.len(),
         rows,
+        journal: path,
     })
 }
 

@@ -13,6 +13,7 @@ use prone_sim::LoadedRobot;
 use prone_sim::settled::STILL;
 
 use super::NodeGrid;
+use prone_record::experiment::MapSource;
 use prone_record::program::Program;
 
 const VARIANT: MappingVariant = MappingVariant::Original;
@@ -21,20 +22,11 @@ const ARM: ArmMode = ArmMode::Fixed;
 /// The regime of a simulated map.
 pub(super) const REGIME: Regime = Regime::TABLE;
 
-/// Where torques come from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Source {
-    /// A rigid body at rest, by moment balance.
-    Statics,
-    /// A pose held in the engine until nothing changes.
-    Simulation,
-}
-
 /// A map to build.
 #[derive(Debug)]
 pub struct Job<'r> {
     pub(super) robot: &'r LoadedRobot,
-    pub(super) source: Source,
+    pub(super) source: MapSource,
     pub(super) grid: NodeGrid,
     pub(super) mapping: Mapping,
     program: Program,
@@ -54,27 +46,17 @@ pub enum JobError {
 /// By what two builds are told apart, name by name.
 pub(super) type Identity = BTreeMap<String, String>;
 
-impl Source {
-    /// Name in files and on the command line.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Statics => "statics",
-            Self::Simulation => "simulation",
-        }
+const fn meaning(source: MapSource) -> &'static str {
+    match source {
+        MapSource::Statics => "rigid body at rest, any shape may carry, no squeeze",
+        MapSource::Simulation => "pose held until at rest",
     }
+}
 
-    const fn meaning(self) -> &'static str {
-        match self {
-            Self::Statics => "rigid body at rest, any shape may carry, no squeeze",
-            Self::Simulation => "pose held until at rest",
-        }
-    }
-
-    const fn regime(self) -> &'static str {
-        match self {
-            Self::Statics => "none, the study's stops hold",
-            Self::Simulation => REGIME.name,
-        }
+const fn regime(source: MapSource) -> &'static str {
+    match source {
+        MapSource::Statics => "none, the study's stops hold",
+        MapSource::Simulation => REGIME.name,
     }
 }
 
@@ -85,12 +67,12 @@ impl<'r> Job<'r> {
     /// [`JobError`], before anything is measured.
     pub fn new(
         robot: &'r LoadedRobot,
-        source: Source,
+        source: MapSource,
         grid: NodeGrid,
         program: &Program,
     ) -> Result<Self, JobError> {
         let mapping = Mapping::new(robot.robot(), VARIANT, ARM)?;
-        if source == Source::Statics {
+        if source == MapSource::Statics {
             HalfRobot::from_robot(robot.robot())?;
         }
         Ok(Self {
@@ -118,7 +100,7 @@ impl<'r> Job<'r> {
         let others = [
             ("program", format!("prone {version}, commit {commit}")),
             ("source", self.source.name().to_owned()),
-            ("regime", self.source.regime().to_owned()),
+            ("regime", regime(self.source).to_owned()),
             ("mapping", VARIANT.name().to_owned()),
             ("arms", ARM.name().to_owned()),
             ("robot", self.robot.robot().name.clone()),
@@ -143,7 +125,7 @@ impl<'r> Job<'r> {
         vec![
             format!("torque map by prone {version}, commit {commit}"),
             format!("source: {}: {}", self.source.name(), self.still()),
-            format!("regime: {}", self.source.regime()),
+            format!("regime: {}", regime(self.source)),
             format!("mapping: {}; arms: {}", VARIANT.name(), ARM.name()),
             format!("robot: {robot}, sha256 {}{version_of_family}", files.hash()),
             format!("engine: {}", prone_sim::engine_version()),
@@ -163,10 +145,10 @@ impl<'r> Job<'r> {
 
     /// What the source does, with its number where it has one.
     fn still(&self) -> String {
-        let meaning = self.source.meaning();
+        let meaning = meaning(self.source);
         match self.source {
-            Source::Statics => meaning.to_owned(),
-            Source::Simulation => format!(
+            MapSource::Statics => meaning.to_owned(),
+            MapSource::Simulation => format!(
                 "{meaning}: no motor's mean torque changes by more than {STILL} N·m per control step"
             ),
         }

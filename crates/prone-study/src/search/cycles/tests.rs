@@ -67,7 +67,7 @@ fn a_steerable_search_finds_what_turns_to_the_left() {
     let left = shipped::cycle("low-175").unwrap().unwrap();
     let best = |base: &Cycle| {
         let searched = CycleSearch::new(robot.robot(), &settings, aim.clone(), base).unwrap();
-        let mut search = Search::about_the_middle(1, 1, 16);
+        let mut search = Search::new(Solver::AboutTheMiddle, 1, 1, 16);
         search.proceed(&Threads(Searched(&searched)), |_| ControlFlow::Continue(()));
         let (_, best) = search.best().unwrap();
         let cycle = searched.gait(&best.point).unwrap();

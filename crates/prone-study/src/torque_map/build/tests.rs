@@ -36,11 +36,13 @@ impl Counting {
 impl Watch for Counting {
     fn progress(&self, progress: &Progress<'_>) {
         match *progress {
-            Progress::TakenOver(rows) => self.taken_over.store(rows, Ordering::SeqCst),
+            Progress::Measuring { taken_over, .. } => {
+                self.taken_over.store(taken_over, Ordering::SeqCst);
+            }
             Progress::Done(rows) => {
                 self.done.fetch_add(rows, Ordering::SeqCst);
             }
-            Progress::Simulating(_) | Progress::Searching(_) => {}
+            Progress::Simulating(_) | Progress::Searching(_) | Progress::Found(..) => {}
         }
     }
 
@@ -56,7 +58,7 @@ fn nao() -> LoadedRobot {
 /// θ3 and α at 10° steps, θ4 −30…180°: the chain does not close at the far end. 924 rows.
 fn job(robot: &LoadedRobot) -> Job<'_> {
     let grid = NodeGrid::new(10.0, 180.0).unwrap();
-    Job::new(robot, Source::Statics, grid, &PROGRAM).unwrap()
+    Job::new(robot, MapSource::Statics, grid, &PROGRAM).unwrap()
 }
 
 fn on_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
@@ -73,7 +75,7 @@ fn identity_a_stopped_build_goes_on_and_its_bytes_are_the_same() {
     let job = job(&robot);
     let build = |threads, stop_after, opening| {
         let watch = Counting::until(stop_after);
-        let built = on_threads(threads, || run(&job, &out, opening, &watch));
+        let built = on_threads(threads, || run(&job, Some((&out, opening)), &watch));
         (
             built,
             watch.taken_over.into_inner(),
@@ -84,7 +86,7 @@ fn identity_a_stopped_build_goes_on_and_its_bytes_are_the_same() {
         panic!("all rows are measured");
     };
     let whole = whole.unwrap();
-    whole.journal.remove().unwrap();
+    whole.journal.unwrap().remove().unwrap();
 
     let (stopped, 0, first) = build(2, 300, Opening::Resume) else {
         panic!("nothing is taken over");
@@ -117,11 +119,10 @@ fn identity_a_stopped_build_goes_on_and_its_bytes_are_the_same() {
 
 #[test]
 fn identity_a_built_map_is_read_with_its_masks_and_contacts() {
-    let home = tempfile::tempdir().unwrap();
     let robot = nao();
     let job = job(&robot);
     let watch = Counting::until(usize::MAX);
-    let built = run(&job, &home.path().join("p"), Opening::Resume, &watch).unwrap();
+    let built = run(&job, None, &watch).unwrap();
     let read = torque_map::parse_recorded(&built.text).unwrap();
     let Summary {
         source,
@@ -156,11 +157,11 @@ fn identity_rows_are_what_the_sources_say() {
     // 2 × 2 × 2 corners.
     let grid = NodeGrid::new(10.0, -20.0).unwrap();
     let world = World::new(&robot, REGIME).unwrap();
-    for source in [Source::Statics, Source::Simulation] {
+    for source in [MapSource::Statics, MapSource::Simulation] {
         let job = Job::new(&robot, source, grid, &PROGRAM).unwrap();
         let watch = Counting::until(usize::MAX);
         let path = home.path().join("p");
-        let built = run(&job, &path, Opening::Restart, &watch).unwrap();
+        let built = run(&job, Some((&path, Opening::Restart)), &watch).unwrap();
         let read = torque_map::parse_recorded(&built.text).unwrap();
         for index in [0, 17, 83] {
             let at = grid.grid().node(index);
@@ -171,8 +172,8 @@ fn identity_rows_are_what_the_sources_say() {
                 StaticTorques::new(robot.robot().as_ref(), job.mapping.clone(), &stops, stance)
                     .unwrap();
             let expected = match source {
-                Source::Statics => torque_map::row_of(&statics, at),
-                Source::Simulation => torque_map::row_of(&settled, at),
+                MapSource::Statics => torque_map::row_of(&statics, at),
+                MapSource::Simulation => torque_map::row_of(&settled, at),
             };
             let (expected, found) = (expected.recorded(), read.map().rows()[index].recorded());
             let pairs = expected
@@ -199,7 +200,7 @@ fn limit_a_robot_without_a_published_chain_is_refused() {
     files.toml = [&shipped::NAO.toml[..from], &shipped::NAO.toml[to..]].concat();
     let robot = LoadedRobot::load(files).unwrap();
     let grid = NodeGrid::new(10.0, 0.0).unwrap();
-    let refused = Job::new(&robot, Source::Statics, grid, &PROGRAM).unwrap_err();
+    let refused = Job::new(&robot, MapSource::Statics, grid, &PROGRAM).unwrap_err();
     assert_eq!(
         refused.to_string(),
         "robot NAO H25 V4 has no published chain, which the mapping `original` needs"

@@ -1,15 +1,16 @@
-//! What may be typed about a price: `prone cost` and `prone optimize` take the same.
+//! What may be typed about the cost of pulls: `prone cost` and `prone optimize` take the same.
 
 use clap::ValueEnum;
 
 use prone::gait::PhaseDuration;
+use prone_record::experiment::ClearanceChoice;
 
 use super::named::RobotArg;
 
 /// What is minimised, and by what it is measured.
 #[derive(Debug, clap::Args)]
-pub(crate) struct PricingArgs {
-    /// What a gait is priced by
+pub(crate) struct PullTermsArgs {
+    /// What a gait costs
     #[arg(long, value_enum)]
     pub(crate) objective: ObjectiveName,
     /// Where torques come from: `dynamics` (each pull simulated, regime torque-study, from its own
@@ -38,7 +39,7 @@ pub(crate) struct PricingArgs {
     /// and legs by their shapes) or `base` (the hip, no lower than in the gait of --from)
     /// [default: none with dynamics, else base]
     #[arg(long, value_name = "RULE", value_parser = clearance)]
-    pub(crate) clearance: Option<ClearanceName>,
+    pub(crate) clearance: Option<ClearanceChoice>,
     /// How far past its stop a joint may be commanded in the plan: `base` (nowhere further than in
     /// the gait of --from) or `none` (no rule: it is clamped) [default: base]
     #[arg(long, value_enum)]
@@ -55,8 +56,8 @@ pub(crate) struct PricingArgs {
     #[arg(long, value_name = "RAD", value_parser = not_negative, allow_negative_numbers = true)]
     pub(crate) limit_tolerance_rad: Option<f64>,
     /// Gait whose mapping, arms and ends of the pull hold: a name or a file [default: that of
-    /// the robot's [defaults], of the NAO nominal; to
-    /// price a gait of another mapping or other arms, that gait itself]
+    /// the robot's [defaults], of the NAO nominal; for
+    /// the cost of a gait of another mapping or other arms, that gait itself]
     #[arg(long, value_name = "GAIT")]
     pub(crate) from: Option<String>,
     #[command(flatten)]
@@ -95,7 +96,7 @@ impl ObjectiveName {
     }
 }
 
-/// What a price is divided by.
+/// What a cost is divided by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum PerName {
     /// One pull
@@ -111,15 +112,6 @@ pub(crate) enum LimitsName {
     Base,
     /// No rule
     None,
-}
-
-/// A clearance as typed, m.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum ClearanceName {
-    None,
-    Base,
-    Hip(f64),
-    Body(f64),
 }
 
 /// Slowest command that is worth a search, degrees per pull: nothing moves below it.
@@ -149,26 +141,26 @@ fn rate(text: &str) -> Result<f64, String> {
     }
     let degrees = finite(text)?;
     if degrees >= SLOWEST_DEG {
-        Ok(degrees.to_radians())
+        Ok(degrees)
     } else {
         Err(format!("a rate is at least {SLOWEST_DEG}"))
     }
 }
 
-fn clearance(text: &str) -> Result<ClearanceName, String> {
-    let metres = |text: &str| {
+fn clearance(text: &str) -> Result<ClearanceChoice, String> {
+    let height = |text: &str| {
         let mm = finite(text)?;
         if mm > 0.0 {
-            Ok(mm / 1e3)
+            Ok(mm)
         } else {
             Err("a clearance is greater than zero".to_owned())
         }
     };
     match text.split_once(':') {
-        None if text == "none" => Ok(ClearanceName::None),
-        None if text == "base" => Ok(ClearanceName::Base),
-        Some(("hip", mm)) => metres(mm).map(ClearanceName::Hip),
-        Some(("body", mm)) => metres(mm).map(ClearanceName::Body),
+        None if text == "none" => Ok(ClearanceChoice::None),
+        None if text == "base" => Ok(ClearanceChoice::Base),
+        Some(("hip", mm)) => height(mm).map(ClearanceChoice::HipMm),
+        Some(("body", mm)) => height(mm).map(ClearanceChoice::BodyMm),
         _ => Err("it is none, base, hip:MM or body:MM".to_owned()),
     }
 }

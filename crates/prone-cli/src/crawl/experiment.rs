@@ -1,15 +1,12 @@
-//! What was typed about a crawl, as an experiment; and what is wrong with it, in the words and units
-//! of the options.
+//! What was typed about a crawl, as an experiment.
 
 use anyhow::anyhow;
 
-use prone::scene::{Quantity, SceneError};
 use prone_files::{shipped, text_file};
 use prone_record::experiment::{
     CrawlExperiment, Detail, Ending, GaitText, RobotText, SceneChoice, SceneText, ServoChoice,
     SteeringChoice,
 };
-use prone_study::crawl::CrawlSetupError;
 
 use crate::Failure;
 use crate::args::{CrawlRunArgs, ServoName, TimeStepName};
@@ -19,7 +16,7 @@ use crate::gait::find_cycle;
 const FINE_STEP_S: f64 = 0.001;
 
 /// What was typed, with the texts of all files that it names.
-pub(super) fn experiment(args: &CrawlRunArgs) -> Result<CrawlExperiment, Failure> {
+pub(super) fn of(args: &CrawlRunArgs) -> Result<CrawlExperiment, Failure> {
     if args.seed.is_some() && args.joint_offset_deg.is_none() && args.uphill.is_none() {
         return Err(Failure::Input(anyhow!(
             "--seed draws joint offsets or an inertial unit's noise: it goes with --joint-offset-deg or --uphill"
@@ -94,51 +91,4 @@ fn scene_text(name: &str) -> Result<SceneText, Failure> {
     let text = text_file::read(path)
         .map_err(|error| Failure::Input(anyhow!("cannot read {name}: {error}")))?;
     Ok(SceneText::new(name, &text))
-}
-
-/// What is wrong with a crawl, in the words of the options.
-pub(super) fn refused(error: CrawlSetupError) -> Failure {
-    match error {
-        CrawlSetupError::Turn {
-            degrees,
-            limit_deg,
-            gait,
-        } => Failure::Input(anyhow!(
-            "--turn-deg-per-cycle {degrees} is outside {} to {limit_deg}, by which {gait} can be turned",
-            0.0 - limit_deg
-        )),
-        CrawlSetupError::NoSteering { gait } => Failure::Input(anyhow!(
-            "--heading-hold and --heading-deg need a cycle that can turn; {gait} has no [steering]"
-        )),
-        CrawlSetupError::NothingToPass { scene } => Failure::Input(anyhow!(
-            "--until-past needs a plate or a panel: scene {scene} has none"
-        )),
-        CrawlSetupError::Scene(error) => refused_scene(error),
-        other => Failure::input(other),
-    }
-}
-
-fn refused_scene(error: SceneError) -> Failure {
-    let SceneError::OutOfBounds {
-        quantity,
-        value,
-        lowest,
-        highest,
-        ..
-    } = error
-    else {
-        return Failure::input(error);
-    };
-    let (option, unit) = match quantity {
-        Quantity::Height => ("--ceiling-mm", 1e3),
-        Quantity::Length => ("--length-m", 1.0),
-        Quantity::Slope => ("--slope-deg", 1_f64.to_degrees()),
-        Quantity::LeftFriction => ("--friction-left", 1.0),
-        Quantity::RightFriction => ("--friction-right", 1.0),
-        _ => return Failure::input(error),
-    };
-    // Nine decimals: finer than what anyone types, coarser than rounding.
-    let [value, lowest, highest] =
-        [value, lowest, highest].map(|number| (number * unit * 1e9).round() / 1e9);
-    Failure::Input(anyhow!("{option} {value} is outside {lowest} to {highest}"))
 }

@@ -1,0 +1,33 @@
+//! What was typed, once it is checked: something that can be run, and how.
+
+use std::path::PathBuf;
+
+use prone_record::experiment::Experiment;
+use prone_record::resumption::Opening;
+use prone_thesis::reproduce::ReproduceExperiment;
+
+/// What is run, and how it is shown.
+pub(crate) struct Plan {
+    pub(crate) work: Work,
+    /// Where the result goes.
+    pub(crate) out: Option<PathBuf>,
+    /// What becomes of unfinished work beside it.
+    pub(crate) opening: Opening,
+    pub(crate) threads: Option<u16>,
+    pub(crate) json: bool,
+}
+
+/// Something that can be run.
+pub(crate) enum Work {
+    Study(Experiment),
+    Reproduction(ReproduceExperiment),
+}
+
+/// What a search does with an earlier one.
+pub(crate) const fn searching(resume: bool) -> Opening {
+    if resume {
+        Opening::Resume
+    } else {
+        Opening::Restart
+    }
+}

@@ -1,0 +1,153 @@
+//! Searches: of pulls, and of whole cycles.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use super::{GaitText, PullCostChoice, RobotText};
+use crate::frontier::CycleObjective;
+use crate::search::Solver;
+
+/// Runs of a search with seeds that follow one another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Runs {
+    /// Seed of the first run.
+    pub seed: u64,
+    /// Independent runs.
+    pub runs: u64,
+    /// Most evaluations of each run.
+    pub budget: u64,
+}
+
+/// A search of pulls: `prone optimize`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PullSearchExperiment {
+    /// The robot that would pull.
+    pub robot: RobotText,
+    /// What pulls cost.
+    pub terms: PullCostChoice,
+    /// Which curves are searched.
+    pub form: GaitForm,
+    /// Whether θ3 and θ4 keep the base gait's ends.
+    pub ends: Ends,
+    /// The optimiser.
+    pub solver: Solver,
+    /// Its runs.
+    pub runs: Runs,
+    /// Most seconds of searching in all.
+    pub time_budget_s: Option<f64>,
+    /// Name of the found gait.
+    pub name: String,
+    /// Gaits that the found one is compared with beside the base gait, as far as the robot can follow
+    /// them.
+    pub compared: Vec<GaitText>,
+    /// Durations at which the found gait is simulated, s.
+    pub confirm_durations_s: Vec<f64>,
+}
+
+/// Which curves are searched.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum GaitForm {
+    /// The thesis': one cubic per parameter.
+    Cubic,
+    /// Cubic B-splines.
+    BSpline {
+        /// Control points per parameter, 4 or more.
+        points: usize,
+    },
+}
+
+impl fmt::Display for GaitForm {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Cubic => f.write_str("cubic"),
+            Self::BSpline { points } => write!(f, "bspline:{points}"),
+        }
+    }
+}
+
+/// Whether θ3 and θ4 keep the base gait's values at the ends of the phase.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Ends {
+    /// They do.
+    Fixed,
+    /// They do not.
+    Free,
+}
+
+impl Ends {
+    /// Name in files and records.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Fixed => "fixed",
+            Self::Free => "free",
+        }
+    }
+}
+
+/// A search of whole cycles: `prone optimize --source cycle`, and `prone crawl frontier`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CycleSearchExperiment {
+    /// The robot that would crawl.
+    pub robot: RobotText,
+    /// What is minimised.
+    pub objective: CycleObjective,
+    /// Whether only cycles that can be steered count.
+    pub steerable: bool,
+    /// Under which ceilings.
+    pub under: Under,
+    /// Cycles of which one is searched about under each ceiling.
+    pub from: Vec<NamedGait>,
+    /// Cycles that the found ones are compared with.
+    pub compared: Vec<GaitText>,
+    /// The runs of the optimiser.
+    pub runs: Runs,
+}
+
+/// Under which ceilings cycles are searched, and by which rules.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Under {
+    /// Several ceilings, by the usual rules: `prone crawl frontier`.
+    Ceilings {
+        /// Ceilings, mm.
+        ceilings_mm: Vec<f64>,
+        /// Distance that has to stay between robot and ceiling, mm.
+        margin_mm: f64,
+    },
+    /// One ceiling or none, by rules that may be asked for: `prone optimize --source cycle`.
+    One {
+        /// The rules.
+        rules: CycleRulesChoice,
+        /// The cycle over whose heats those found are.
+        worst_over: Option<NamedGait>,
+        /// Name of the found cycle; without one it is called after the objective.
+        name: Option<String>,
+    },
+}
+
+/// Rules of a search of cycles; the usual one where there is none.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct CycleRulesChoice {
+    /// Height below which everything stays, mm.
+    pub ceiling_mm: Option<f64>,
+    /// Least advance per cycle, mm.
+    pub least_advance_mm: Option<f64>,
+    /// Largest torque that a shoulder's servo may demand, N·m.
+    pub demanded_shoulder_nm: Option<f64>,
+    /// Largest share of the weight on trunk and legs, percent.
+    pub body_share_percent: Option<f64>,
+    /// Largest heat, s/m, or the share of that of another cycle.
+    pub most_heat: Option<f64>,
+}
+
+/// A gait, and how it was called by whoever asked.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct NamedGait {
+    /// As it was called: a name or a path.
+    pub called: String,
+    /// Its file.
+    pub gait: GaitText,
+}

@@ -1,0 +1,214 @@
+//! Why an experiment has no outcome.
+
+use std::path::PathBuf;
+
+use rayon::ThreadPoolBuildError;
+
+use prone::gait::PhaseDurationError;
+use prone_record::experiment::{ChangedText, TextError};
+use prone_record::lock::LockError;
+use prone_record::output::OutputError;
+use prone_record::resumption::ResumptionError;
+use prone_record::search::SmallerBudget;
+use prone_record::single_file::WriteError;
+use prone_sim::pull::PullError;
+use prone_sim::{LoadError, WorldError};
+
+use crate::crawl::record::RecordError;
+use crate::crawl::{CrawlRunError, CrawlSetupError, RefusedCycle};
+use crate::search::candidates::Refusal;
+use crate::search::cycles::CycleSearchError;
+use crate::search::passage::PassageError;
+use crate::search::pull_cost::PullCostError;
+use crate::search::pull_terms::{AdvanceError, PullTermsError};
+use crate::search::pulls::PullSearchError;
+use crate::search::room::NoRoom;
+use crate::search::run::SearchError;
+use crate::search::settings::SettingError;
+use crate::torque_map::build::BuildError;
+use crate::torque_map::{JobError, NodeGridError};
+
+/// Why an experiment has no outcome.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// The robot's text is not the one that was asked for.
+    #[error(transparent)]
+    Changed(#[from] ChangedText),
+    /// The robot cannot be loaded.
+    #[error(transparent)]
+    Robot(#[from] LoadError),
+    /// A gait or a map cannot be read.
+    #[error(transparent)]
+    Text(#[from] TextError),
+    /// The robot does not compile with its floor.
+    #[error(transparent)]
+    World(#[from] WorldError),
+    /// A duration that no pull can have.
+    #[error(transparent)]
+    Duration(#[from] PhaseDurationError),
+    /// A crawl cannot be set up.
+    #[error(transparent)]
+    Setup(#[from] CrawlSetupError),
+    /// A pull has no record.
+    #[error(transparent)]
+    Pull(#[from] PullError),
+    /// A crawl has no record.
+    #[error(transparent)]
+    Crawl(CrawlRunError),
+    /// The robot cannot crawl a cycle.
+    #[error(transparent)]
+    Cycle(#[from] RefusedCycle),
+    /// A record has no files.
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    /// A margin that is as large as its ceiling.
+    #[error(transparent)]
+    NoRoom(#[from] NoRoom),
+    /// Cycles cannot be tried.
+    #[error(transparent)]
+    Setting(#[from] SettingError),
+    /// A search under a ceiling has no result.
+    #[error(transparent)]
+    Passage(PassageError),
+    /// Costs cannot be made of what was asked for.
+    #[error(transparent)]
+    Terms(#[from] PullTermsError),
+    /// Pulls have no costs.
+    #[error(transparent)]
+    Costs(#[from] PullCostError),
+    /// A pull has no cost per metre.
+    #[error(transparent)]
+    Advance(#[from] AdvanceError),
+    /// The objective has no cost for a pull.
+    #[error(transparent)]
+    NoCost(Box<Refusal>),
+    /// A pull and the base of its costs are of two kinds.
+    #[error("gait {gait} and the base gait {base} differ in mapping or arms")]
+    OtherKind {
+        /// The pull's name.
+        gait: String,
+        /// The base gait's name.
+        base: String,
+    },
+    /// Pulls cannot be searched.
+    #[error(transparent)]
+    PullSearch(#[from] PullSearchError),
+    /// Cycles cannot be searched.
+    #[error(transparent)]
+    CycleSearch(CycleSearchError),
+    /// A search has no result.
+    #[error(transparent)]
+    Search(SearchError),
+    /// An interrupted search had more evaluations than it may have now.
+    #[error(transparent)]
+    Budget(#[from] SmallerBudget),
+    /// A checkpoint holds another number of searches.
+    #[error("the checkpoint holds {found} searches in place of {expected}")]
+    Searches {
+        /// How many there are.
+        found: usize,
+        /// How many there should be.
+        expected: usize,
+    },
+    /// A torque map has no such grid.
+    #[error(transparent)]
+    Grid(#[from] NodeGridError),
+    /// A torque map of the robot cannot be built.
+    #[error(transparent)]
+    Map(#[from] JobError),
+    /// There is no torque map.
+    #[error(transparent)]
+    Build(BuildError),
+    /// Earlier work cannot be taken up, or its place is taken.
+    #[error(transparent)]
+    Resumption(#[from] ResumptionError),
+    /// The result cannot be put where it should be; nothing was done.
+    #[error(transparent)]
+    Place(OutputError),
+    /// The same for a result that is one file.
+    #[error(transparent)]
+    PlaceOfFile(WriteError),
+    /// Another process makes the same result.
+    #[error(transparent)]
+    Lock(#[from] LockError),
+    /// The result is there, and cannot be put in place.
+    #[error(transparent)]
+    Publish(#[from] OutputError),
+    /// The same for a result that is one file; rows of a torque map stay in its journal.
+    #[error("{source}{}", kept(journal.as_ref()))]
+    PublishFile {
+        /// Why.
+        source: WriteError,
+        /// Where rows are kept.
+        journal: Option<PathBuf>,
+    },
+    /// What was found has no text.
+    #[error(transparent)]
+    Json(#[from] serde_json::Error),
+    /// The worker threads cannot be started.
+    #[error("cannot start worker threads: {0}")]
+    Threads(#[from] ThreadPoolBuildError),
+    /// [`Watch::stop`](crate::watch::Watch::stop) said so; nothing is kept.
+    #[error("stopped")]
+    Stopped,
+    /// The same; what was searched so far is in the checkpoint.
+    #[error("stopped; the search is kept in {}", checkpoint.display())]
+    StoppedSearch {
+        /// The checkpoint.
+        checkpoint: PathBuf,
+    },
+    /// The same; rows of a torque map are in its journal.
+    #[error("stopped; {done} of {rows} rows are in {}", journal.display())]
+    StoppedMap {
+        /// Rows done.
+        done: usize,
+        /// Rows of the map.
+        rows: usize,
+        /// The journal.
+        journal: PathBuf,
+    },
+}
+
+fn kept(journal: Option<&PathBuf>) -> String {
+    journal.map_or_else(String::new, |path| {
+        format!("; all rows are in {}", path.display())
+    })
+}
+
+impl RunError {
+    /// Whether the work failed, and not what was asked for: it may succeed another time.
+    pub const fn is_work(&self) -> bool {
+        match self {
+            Self::Crawl(error) => !error.is_input(),
+            Self::Search(error) => !matches!(error, SearchError::Nothing { .. }),
+            Self::Build(error) => error.is_work(),
+            Self::Passage(error) => matches!(error, PassageError::Result(_)),
+            Self::Resumption(error) => matches!(error, ResumptionError::Write(_)),
+            Self::Pull(_)
+            | Self::Record(_)
+            | Self::Publish(_)
+            | Self::PublishFile { .. }
+            | Self::Json(_)
+            | Self::Threads(_) => true,
+            _ => false,
+        }
+    }
+}
+
+impl From<CycleSearchError> for RunError {
+    fn from(error: CycleSearchError) -> Self {
+        match error {
+            CycleSearchError::Stopped => Self::Stopped,
+            other => Self::CycleSearch(other),
+        }
+    }
+}
+
+impl From<PassageError> for RunError {
+    fn from(error: PassageError) -> Self {
+        match error {
+            PassageError::Result(SearchError::Stopped) => Self::Stopped,
+            other => Self::Passage(other),
+        }
+    }
+}
