@@ -20,7 +20,7 @@ pub(crate) struct Plan {
 /// Something that can be run.
 pub(crate) enum Work {
     Study(Experiment),
-    Reproduction(ReproduceExperiment),
+    Reproduction(Box<ReproduceExperiment>),
 }
 
 /// What a search does with an earlier one.

@@ -32,15 +32,14 @@ pub(crate) fn choice(
 ) -> Result<PullCostChoice, Failure> {
     let objective = objective(args)?;
     let source = source(args, files)?;
-    let base = match &args.from {
-        Some(name) => find(&files.gaits, name)?,
-        None => {
-            let defaults = files.defaults().map_err(Failure::input)?.pull;
-            let usual = find(&files.gaits, &defaults.from)?;
-            let kind = |(gait, _): &(Gait, GaitText)| (gait.mapping, gait.arm);
-            let other = costed.filter(|costed| kind(costed) != kind(&usual));
-            other.cloned().unwrap_or(usual)
-        }
+    let base = if let Some(name) = &args.from {
+        find(&files.gaits, name)?
+    } else {
+        let defaults = files.defaults().map_err(Failure::input)?.pull;
+        let usual = find(&files.gaits, &defaults.from)?;
+        let kind = |(gait, _): &(Gait, GaitText)| (gait.mapping, gait.arm);
+        let other = costed.filter(|costed| kind(costed) != kind(&usual));
+        other.cloned().unwrap_or(usual)
     };
     let clearance = args.clearance.unwrap_or(match source {
         // There the share of the weight on the body says what is low.
@@ -145,12 +144,11 @@ fn objective(
 fn source(args: &PullTermsArgs, files: &RobotFiles) -> Result<TorqueChoice, Failure> {
     let given = &*args.source;
     if given == "dynamics" {
-        let body_share_of = match &args.body_share_of {
-            Some(name) => BodyShareOf::Gait(find(&files.gaits, name)?.1),
-            None => {
-                let defaults = files.defaults().map_err(Failure::input)?.pull;
-                BodyShareOf::Usual(find(&files.gaits, &defaults.body_share_of)?.1)
-            }
+        let body_share_of = if let Some(name) = &args.body_share_of {
+            BodyShareOf::Gait(find(&files.gaits, name)?.1)
+        } else {
+            let defaults = files.defaults().map_err(Failure::input)?.pull;
+            BodyShareOf::Usual(find(&files.gaits, &defaults.body_share_of)?.1)
         };
         return Ok(TorqueChoice::Dynamics { body_share_of });
     }

@@ -35,7 +35,7 @@ pub(crate) fn of_study(error: RunError, experiment: &Experiment) -> Failure {
             ));
         }
         RunError::Setup(error) => return of_crawl(error),
-        RunError::CycleSearch(error) => return of_cycle_search(error, experiment),
+        RunError::CycleSearch(error) => return of_cycle_search(*error, experiment),
         RunError::NoRoom(error) => no_room("--ceiling-mm", error),
         RunError::OtherKind { .. } => {
             format!("{error}: leave out --from, or name a gait of the same kind there")

@@ -15,8 +15,9 @@ use crate::plan::{Plan, Work};
 pub(crate) fn plan(args: &ReproduceArgs) -> Result<Plan, Failure> {
     let files = crate::robot::files(args.robot.name())?;
     let robot = RobotText::from_files(&files);
+    let experiment = ReproduceExperiment::new(robot, args.durations.clone());
     Ok(Plan {
-        work: Work::Reproduction(ReproduceExperiment::new(robot, args.durations.clone())),
+        work: Work::Reproduction(Box::new(experiment)),
         out: Some(args.out.clone()),
         opening: Opening::Restart,
         threads: args.threads,

@@ -163,7 +163,7 @@ impl Session {
             Experiment::Pull(it) => Outcome::Pull(Box::new(self.pull(it, watch)?)),
             Experiment::Crawl(it) => Outcome::Crawl(Box::new(self.crawl(it, watch)?)),
             Experiment::Passage(it) => Outcome::Passage(Box::new(self.passage(it, watch)?)),
-            Experiment::Cost(it) => Outcome::Cost(Box::new(self.cost(it)?)),
+            Experiment::Cost(it) => Outcome::Cost(Box::new(search::cost(it)?)),
             Experiment::PullSearch(it) => Outcome::Search(self.pull_search(it, watch)?),
             Experiment::CycleSearch(it) => Outcome::Search(self.cycle_search(it, watch)?),
             Experiment::TorqueMap(it) => Outcome::TorqueMap(Box::new(self.torque_map(it, watch)?)),
@@ -438,7 +438,7 @@ fn stopped_map(error: BuildError) -> RunError {
             journal,
         },
         BuildError::Stopped { .. } => RunError::Stopped,
-        other => RunError::Build(other),
+        other => RunError::Build(Box::new(other)),
     }
 }
 

@@ -100,7 +100,7 @@ pub enum ReproduceError {
 impl ReproduceError {
     /// Whether the work failed, and not what was asked for: a gait that the robot cannot follow is
     /// wrong input, a diverging simulation is not.
-    pub const fn is_work(&self) -> bool {
+    pub fn is_work(&self) -> bool {
         match self {
             Self::Run(error) => error.is_work(),
             Self::Study(error) => !matches!(

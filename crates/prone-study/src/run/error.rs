@@ -67,9 +67,6 @@ pub enum RunError {
     /// Cycles cannot be tried.
     #[error(transparent)]
     Setting(#[from] SettingError),
-    /// A search under a ceiling has no result.
-    #[error(transparent)]
-    Passage(PassageError),
     /// Costs cannot be made of what was asked for.
     #[error(transparent)]
     Terms(#[from] PullTermsError),
@@ -95,10 +92,10 @@ pub enum RunError {
     PullSearch(#[from] PullSearchError),
     /// Cycles cannot be searched.
     #[error(transparent)]
-    CycleSearch(CycleSearchError),
+    CycleSearch(Box<CycleSearchError>),
     /// A search has no result.
     #[error(transparent)]
-    Search(SearchError),
+    Search(Box<SearchError>),
     /// An interrupted search had more evaluations than it may have now.
     #[error(transparent)]
     Budget(#[from] SmallerBudget),
@@ -118,10 +115,10 @@ pub enum RunError {
     Map(#[from] JobError),
     /// There is no torque map.
     #[error(transparent)]
-    Build(BuildError),
+    Build(Box<BuildError>),
     /// Earlier work cannot be taken up, or its place is taken.
     #[error(transparent)]
-    Resumption(#[from] ResumptionError),
+    Resumption(Box<ResumptionError>),
     /// The result cannot be put where it should be; nothing was done.
     #[error(transparent)]
     Place(OutputError),
@@ -177,13 +174,12 @@ fn kept(journal: Option<&PathBuf>) -> String {
 
 impl RunError {
     /// Whether the work failed, and not what was asked for: it may succeed another time.
-    pub const fn is_work(&self) -> bool {
+    pub fn is_work(&self) -> bool {
         match self {
             Self::Crawl(error) => !error.is_input(),
-            Self::Search(error) => !matches!(error, SearchError::Nothing { .. }),
+            Self::Search(error) => !matches!(**error, SearchError::Nothing { .. }),
             Self::Build(error) => error.is_work(),
-            Self::Passage(error) => matches!(error, PassageError::Result(_)),
-            Self::Resumption(error) => matches!(error, ResumptionError::Write(_)),
+            Self::Resumption(error) => matches!(**error, ResumptionError::Write(_)),
             Self::Pull(_)
             | Self::Record(_)
             | Self::Publish(_)
@@ -199,7 +195,7 @@ impl From<CycleSearchError> for RunError {
     fn from(error: CycleSearchError) -> Self {
         match error {
             CycleSearchError::Stopped => Self::Stopped,
-            other => Self::CycleSearch(other),
+            other => Self::CycleSearch(Box::new(other)),
         }
     }
 }
@@ -208,7 +204,14 @@ impl From<PassageError> for RunError {
     fn from(error: PassageError) -> Self {
         match error {
             PassageError::Result(SearchError::Stopped) => Self::Stopped,
-            other => Self::Passage(other),
+            PassageError::Result(error) => Self::Search(Box::new(error)),
+            PassageError::Search(error) => error.into(),
         }
+    }
+}
+
+impl From<ResumptionError> for RunError {
+    fn from(error: ResumptionError) -> Self {
+        Self::Resumption(Box::new(error))
     }
 }

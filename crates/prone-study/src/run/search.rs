@@ -32,33 +32,34 @@ pub struct CostOutcome {
     pub unit: &'static str,
 }
 
-impl Session {
-    pub(super) fn cost(&self, experiment: &CostExperiment) -> Result<CostOutcome, RunError> {
-        let robot = LoadedRobot::load(experiment.robot.files()?)?;
-        let gait = experiment.gait.parse(gait_file::parse)?;
-        let world = World::new(&robot, Regime::TORQUE_STUDY)?;
-        let terms = PullTerms::new(&experiment.terms, &world)?;
-        let base = &terms.base;
-        let same_kind = (gait.mapping, gait.arm) == (base.mapping, base.arm);
-        if matches!(terms.aim, PullAim::Graded(_)) && !same_kind {
-            return Err(RunError::OtherKind {
-                gait: gait.name,
-                base: base.name.clone(),
-            });
-        }
-        if terms.share == Share::Metre {
-            check_advance(world.robot(), &gait)?;
-        }
-        let unit = terms.aim.objective().unit();
-        let costs = PullCosts::new(&world, terms)?;
-        let cost = costs.cost(&gait, Depth::Everything);
-        if let Some(refusal @ Refusal::NotCubic { .. }) = cost.refusal {
-            return Err(RunError::NoCost(Box::new(refusal)));
-        }
-        let cost = costs.record(&cost);
-        Ok(CostOutcome { gait, cost, unit })
+/// What a pull costs, and what it breaks.
+pub(super) fn cost(experiment: &CostExperiment) -> Result<CostOutcome, RunError> {
+    let robot = LoadedRobot::load(experiment.robot.files()?)?;
+    let gait = experiment.gait.parse(gait_file::parse)?;
+    let world = World::new(&robot, Regime::TORQUE_STUDY)?;
+    let terms = PullTerms::new(&experiment.terms, &world)?;
+    let base = &terms.base;
+    let same_kind = (gait.mapping, gait.arm) == (base.mapping, base.arm);
+    if matches!(terms.aim, PullAim::Graded(_)) && !same_kind {
+        return Err(RunError::OtherKind {
+            gait: gait.name,
+            base: base.name.clone(),
+        });
     }
+    if terms.share == Share::Metre {
+        check_advance(world.robot(), &gait)?;
+    }
+    let unit = terms.aim.objective().unit();
+    let costs = PullCosts::new(&world, terms)?;
+    let cost = costs.cost(&gait, Depth::Everything);
+    if let Some(refusal @ Refusal::NotCubic { .. }) = cost.refusal {
+        return Err(RunError::NoCost(Box::new(refusal)));
+    }
+    let cost = costs.record(&cost);
+    Ok(CostOutcome { gait, cost, unit })
+}
 
+impl Session {
     pub(super) fn pull_search(
         &self,
         experiment: &PullSearchExperiment,
@@ -105,7 +106,7 @@ impl Session {
         let done = pool.install(|| run::run(run, &mut searches, time, watch, kept));
         let done = done.map_err(|error| match (error, &checkpoint) {
             (SearchError::Stopped, checkpoint) => stopped(checkpoint.as_ref()),
-            (error, _) => RunError::Search(error),
+            (error, _) => RunError::Search(Box::new(error)),
         })?;
         let published = self.publish(&done.artefacts, watch, || match (&checkpoint, done.end) {
             (Some(checkpoint), SearchEnd::Finished) => Ok(checkpoint.remove()?),
