@@ -37,7 +37,7 @@ Examples:
   prone optimize --objective torque --source dynamics --seed 1 --out out/torque
                                           search a better gait
   prone cost nominal --objective heat --source dynamics
-                                          price a gait
+                                          tell what a gait costs
   prone crawl run low-175 --ceiling-mm 178 --length-m 1.5 --until-past
                                           crawl under a plate
   prone crawl under --ceiling-mm 180      whether the robot gets under it, how, and how fast
@@ -55,7 +55,7 @@ pub(crate) struct Args {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Redo the published torque study: simulate, price, compare, draw, report
+    /// Redo the published torque study: simulate, cost, compare, draw, report
     Reproduce(ReproduceArgs),
     /// Crawl whole cycles in simulation, and ask what a robot gets under
     #[command(subcommand)]

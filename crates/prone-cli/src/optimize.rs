@@ -108,14 +108,14 @@ pub(crate) fn print(outcome: &Outcome, out: &mut dyn Write) -> std::io::Result<(
         "seed", "cost", "torque", "violations", "evaluations"
     )?;
     for run in &outcome.runs {
-        let price = run.price.as_ref();
+        let cost = run.cost.as_ref();
         writeln!(
             out,
             "{:>8}{:>14}{:>14}{:>12}{:>13}",
             run.seed,
-            number(price.and_then(|price| price.cost)),
-            number(price.and_then(|price| price.torque)),
-            number(price.map(|price| price.violations)),
+            number(cost.and_then(|it| it.cost)),
+            number(cost.and_then(|it| it.torque)),
+            number(cost.map(|it| it.violations)),
             run.evaluations
         )?;
     }
@@ -123,7 +123,7 @@ pub(crate) fn print(outcome: &Outcome, out: &mut dyn Write) -> std::io::Result<(
         out,
         "\n{}: cost {} ({})",
         outcome.gait,
-        number(outcome.price.cost),
+        number(outcome.cost.cost),
         outcome.unit
     )?;
     for other in &outcome.compared {
@@ -131,8 +131,8 @@ pub(crate) fn print(outcome: &Outcome, out: &mut dyn Write) -> std::io::Result<(
             out,
             "  {:<10} cost {}, violations {:.4}; torque part found / {}: {}",
             other.gait,
-            number(other.price.cost),
-            other.price.violations,
+            number(other.cost.cost),
+            other.cost.violations,
             other.gait,
             number(other.torque_ratio)
         )?;
@@ -140,11 +140,11 @@ pub(crate) fn print(outcome: &Outcome, out: &mut dyn Write) -> std::io::Result<(
     if !outcome.complete {
         writeln!(out, "  stopped by the time budget; --resume goes on")?;
     }
-    if outcome.price.violations > 0.0 {
+    if outcome.cost.violations > 0.0 {
         writeln!(
             out,
             "\nwhat was found breaks rules of the search, by {:.4}: what it saves is partly that",
-            outcome.price.violations
+            outcome.cost.violations
         )?;
     }
     writeln!(out, "\nconfirmed by simulation, found over other")?;

@@ -15,9 +15,9 @@ pub struct Outcome {
     pub gait: String,
     /// What it is made of.
     pub curves: CurvesInfo,
-    /// Its price.
+    /// Its cost.
     #[serde(flatten)]
-    pub price: Priced,
+    pub cost: PullCost,
     /// Unit of the torque part.
     pub unit: &'static str,
     /// Seed of the run that found it.
@@ -30,7 +30,7 @@ pub struct Outcome {
     pub variables: usize,
     /// Each run's best.
     pub runs: Vec<RunOutcome>,
-    /// The gaits that it is compared with, priced the same way.
+    /// The gaits that it is compared with, by the same costs.
     pub compared: Vec<Compared>,
     /// What simulation says at other durations and in the other regime.
     pub verdicts: Vec<Verdict>,
@@ -43,9 +43,9 @@ pub struct Outcome {
 pub struct RunOutcome {
     /// Its seed.
     pub seed: u64,
-    /// Its best gait's price, `None` where nothing was evaluated.
+    /// The cost of its best gait, `None` where nothing was evaluated.
     #[serde(flatten)]
-    pub price: Option<Priced>,
+    pub cost: Option<PullCost>,
     /// Evaluations.
     pub evaluations: u64,
     /// Generations.
@@ -54,21 +54,21 @@ pub struct RunOutcome {
     pub restarts: u64,
 }
 
-/// Another gait's price, and the found one's over it.
+/// The cost of another gait, and the found one's over it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Compared {
     /// Name of the gait.
     pub gait: String,
-    /// Its price.
+    /// Its cost.
     #[serde(flatten)]
-    pub price: Priced,
+    pub cost: PullCost,
     /// The found gait's torque part over this one's, where both are known.
     pub torque_ratio: Option<f64>,
 }
 
-/// A price, in parts.
+/// The cost of a pull, in parts.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Priced {
+pub struct PullCost {
     /// What is minimised among gaits with the same violations; for `published` its cost, in which
     /// violations weigh 1000 each. `None` where it is not known, as violations forbid to simulate.
     pub cost: Option<f64>,

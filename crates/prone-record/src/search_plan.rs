@@ -11,7 +11,7 @@ use serde_json::Value;
 
 use prone_files::text_file;
 
-use crate::experiment::{CycleRulesChoice, Runs};
+use crate::experiment::{CycleRulesChoice, PullRules, Runs};
 use crate::frontier::CycleObjective;
 use crate::program::{Program, RobotInfo};
 use crate::search::{Search, Solver};
@@ -127,16 +127,9 @@ pub enum PullAimPlan {
 pub struct GradedPlan {
     /// Of ankle, knee, hip and shoulder, for torque.
     pub weights: Option<[f64; 4]>,
-    /// `phase` or `metre`.
-    pub per: String,
-    /// Duration of the pull, s.
-    pub duration_s: f64,
-    /// Fastest command, where there is a limit.
-    pub rate_deg_per_phase: Option<f64>,
-    /// What stays above the floor.
-    pub clearance: ClearancePlan,
-    /// `base` or `none`.
-    pub limits: String,
+    /// The rules, with the height of the base gait's hip where it is the clearance.
+    #[serde(flatten)]
+    pub rules: PullRules,
     /// The gait whose share of the weight on trunk and legs is the limit.
     pub body_share_of: Option<String>,
     /// That share.
@@ -145,18 +138,6 @@ pub struct GradedPlan {
     pub regime: String,
     /// How a pull begins.
     pub start: String,
-}
-
-/// What stays above the floor in the plan.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum ClearancePlan {
-    /// Nothing is asked.
-    None,
-    /// The hip's centre, mm.
-    HipMm(f64),
-    /// The lowest point of trunk and legs, mm.
-    BodyMm(f64),
 }
 
 /// Where torques come from.

@@ -81,19 +81,9 @@ pub enum Share {
     Metre,
 }
 
-impl Share {
-    /// Name in files and records.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Phase => "phase",
-            Self::Metre => "metre",
-        }
-    }
-}
-
 /// What stays above the floor in the plan.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[serde(rename_all = "snake_case")]
 pub enum ClearanceChoice {
     /// Nothing is asked.
     None,

@@ -6,7 +6,7 @@ use prone::gait::Gait;
 use prone::regime::Regime;
 use prone_files::gait_file;
 use prone_record::experiment::{CostExperiment, CycleSearchExperiment, PullSearchExperiment};
-use prone_record::gait_search::Priced;
+use prone_record::gait_search::PullCost;
 use prone_record::resumption::{Earlier, Opening, Snapshot, Work};
 use prone_record::search::{Search, SearchEnd};
 use prone_record::search_result::SearchResult;
@@ -27,7 +27,7 @@ pub struct CostOutcome {
     /// The pull.
     pub gait: Gait,
     /// Its cost.
-    pub cost: Priced,
+    pub cost: PullCost,
     /// Unit of its torque part.
     pub unit: &'static str,
 }

@@ -69,7 +69,7 @@ pub struct Cost {
 pub enum Refusal {
     /// The published objective has no cost for it.
     #[error(
-        "gait {gait} has a curve that is no polynomial of degree 3 or less, and the objective `published` prices nothing else"
+        "gait {gait} has a curve that is no polynomial of degree 3 or less, and the objective `published` has a cost for nothing else"
     )]
     NotCubic {
         /// The gait's name.

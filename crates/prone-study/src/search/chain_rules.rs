@@ -103,7 +103,7 @@ impl ChainRules {
             if !body {
                 return chain.posture(angles).hip.z();
             }
-            // A forearm that cannot point forward is refused when the gait is priced.
+            // A forearm that cannot point forward is refused when the gait gets its cost.
             mapping
                 .joint_angles(robot, angles)
                 .map_or(f64::INFINITY, |joints| {

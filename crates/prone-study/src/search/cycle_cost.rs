@@ -85,7 +85,7 @@ pub enum CycleCostError {
     #[error(transparent)]
     Form(#[from] CycleFormError),
     /// There is nothing to simulate.
-    #[error("cycles are priced in at least one setting")]
+    #[error("cycles have costs in at least one setting")]
     NoSettings,
     /// Heats are compared with those of other settings.
     #[error("{others} heats to compare with are given, and {settings} settings have a value")]

@@ -309,7 +309,7 @@ mod tests {
         }
     }
 
-    /// No other cycle is priced in place of one whose pull no phase can have.
+    /// No other cycle stands in for one whose pull no phase can have.
     #[test]
     fn limit_a_time_that_no_pull_has_makes_no_cycle() {
         let loaded = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();

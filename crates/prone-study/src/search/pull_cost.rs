@@ -20,7 +20,7 @@ use prone::robot::Robot;
 use prone::statics::{Stance, StaticTorques, SupportRule, SymmetryError};
 use prone::torque_map::{TorqueMap, TorqueSource};
 use prone_optim::{Failure, Interval, Problem as _, Score};
-use prone_record::gait_search::{Broken, Priced};
+use prone_record::gait_search::{Broken, PullCost};
 use prone_sim::World;
 use prone_sim::pull::{self, Keep, Pull, PullError, Start};
 
@@ -245,9 +245,9 @@ impl PullCosts {
     }
 
     /// A cost in the form of a record.
-    pub fn record(&self, cost: &Cost) -> Priced {
+    pub fn record(&self, cost: &Cost) -> PullCost {
         let known = Some(cost.value).filter(|value| !value.is_nan());
-        Priced {
+        PullCost {
             cost: match self.method {
                 Method::Published { .. } => known.map(|it| it + VIOLATION_COST * cost.violation),
                 Method::Graded { .. } => known,

@@ -16,7 +16,7 @@ use prone_record::experiment::{
     TextError, TorqueChoice,
 };
 use prone_record::program::RobotInfo;
-use prone_record::search_plan::{ClearancePlan, GradedPlan, PullAimPlan, PullCostPlan, SourcePlan};
+use prone_record::search_plan::{GradedPlan, PullAimPlan, PullCostPlan, SourcePlan};
 use prone_sim::pull::{self, Keep, PullError, Start};
 use prone_sim::{LoadedRobot, World};
 
@@ -207,20 +207,21 @@ impl PullTerms {
     pub fn plan(&self, world: &World, robot: &LoadedRobot) -> PullCostPlan {
         let graded = |weights| GradedPlan {
             weights,
-            per: self.share.name().to_owned(),
-            duration_s: self.duration.seconds(),
-            rate_deg_per_phase: Some(self.rules.rate.to_degrees()).filter(|rate| rate.is_finite()),
-            clearance: match self.rules.clearance {
-                Clearance::Free => ClearancePlan::None,
-                Clearance::Hip(height) => ClearancePlan::HipMm(height * 1e3),
-                Clearance::Body(height) => ClearancePlan::BodyMm(height * 1e3),
+            rules: PullRules {
+                per: self.share,
+                duration_s: self.duration.seconds(),
+                rate_deg_per_phase: Some(self.rules.rate.to_degrees())
+                    .filter(|rate| rate.is_finite()),
+                clearance: match self.rules.clearance {
+                    Clearance::Free => ClearanceChoice::None,
+                    Clearance::Hip(height) => ClearanceChoice::HipMm(height * 1e3),
+                    Clearance::Body(height) => ClearanceChoice::BodyMm(height * 1e3),
+                },
+                limits: match self.rules.stops {
+                    None => LimitsChoice::None,
+                    Some(_) => LimitsChoice::Base,
+                },
             },
-            limits: self
-                .rules
-                .stops
-                .as_ref()
-                .map_or("none", |_| "base")
-                .to_owned(),
             body_share_of: self.body_share_of.clone(),
             body_share_percent: self.body_share_of.as_ref().map(|_| self.body_share * 100.0),
             regime: world.regime().name.to_owned(),

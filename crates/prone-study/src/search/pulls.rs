@@ -8,7 +8,7 @@ use prone_optim::Candidate;
 use prone_record::curves_info::CurvesInfo;
 use prone_record::experiment::{Ends, GaitForm, PullSearchExperiment, TextError};
 use prone_record::gait_search::{
-    self, Compared, Confirmation, Outcome, Priced, Refusal, RunOutcome, Verdict,
+    self, Compared, Confirmation, Outcome, PullCost, Refusal, RunOutcome, Verdict,
 };
 use prone_record::output::Artefacts;
 use prone_record::program::Program;
@@ -183,27 +183,27 @@ impl PullRun {
         confirmation: &Confirmation,
     ) -> Result<Outcome, SearchError> {
         let cost = searched.cost(gait, Depth::Everything);
-        let price = searched.costs.record(&cost);
+        let cost = searched.costs.record(&cost);
         let runs = search.runs().iter().map(|run| {
-            let price = match run.best() {
-                Some(best) => priced(searched, &searched.gait(&best.point)?),
+            let cost = match run.best() {
+                Some(best) => known_cost(searched, &searched.gait(&best.point)?),
                 None => None,
             };
             Ok(RunOutcome {
                 seed: run.seed,
-                price,
+                cost,
                 evaluations: run.evaluations(),
                 generations: run.last().map_or(0, |last| last.generation),
                 restarts: run.last().map_or(0, |last| last.restarts),
             })
         });
         let compared = self.compared.iter().filter_map(|other| {
-            let theirs = priced(searched, other)?;
-            let torques = price.torque.zip(theirs.torque);
+            let theirs = known_cost(searched, other)?;
+            let torques = cost.torque.zip(theirs.torque);
             Some(Compared {
                 gait: other.name.clone(),
                 torque_ratio: torques.map(|(ours, theirs)| ours / theirs),
-                price: theirs,
+                cost: theirs,
             })
         });
         Ok(Outcome {
@@ -218,7 +218,7 @@ impl PullRun {
             compared: compared.collect(),
             verdicts: confirmation.verdicts.clone(),
             refused: confirmation.refused.clone(),
-            price,
+            cost,
         })
     }
 
@@ -275,10 +275,10 @@ impl PullRun {
             outcome.runs.len(),
             searched.costs.world().robot().name
         )];
-        if let Some(cost) = outcome.price.cost {
+        if let Some(cost) = outcome.cost.cost {
             lines.push(format!(
                 "Cost {cost:.4} ({}), violations {:.4}.",
-                outcome.unit, outcome.price.violations
+                outcome.unit, outcome.cost.violations
             ));
         }
         lines.push(
@@ -337,7 +337,7 @@ impl SearchRun for PullRun {
 }
 
 /// What a gait costs, `None` where the objective has no cost for it.
-fn priced(searched: &PullSearch, gait: &Gait) -> Option<Priced> {
+fn known_cost(searched: &PullSearch, gait: &Gait) -> Option<PullCost> {
     let cost = searched.cost(gait, Depth::Everything);
     let no_cost = matches!(cost.refusal, Some(NoCost::NotCubic { .. }));
     (!no_cost).then(|| searched.costs.record(&cost))

@@ -85,16 +85,16 @@ fn a_cycle_is_as_warm_as_itself() {
         },
     };
     let costs = CycleCosts::new(settings.into(), aim, &cycle).unwrap();
-    let price = costs.cost(&cycle, Depth::Everything);
-    assert!((price.value - 1.0).abs() < 1e-12, "{}", price.value);
-    assert_eq!(price.refusal, None);
+    let cost = costs.cost(&cycle, Depth::Everything);
+    assert!((cost.value - 1.0).abs() < 1e-12, "{}", cost.value);
+    assert_eq!(cost.refusal, None);
     // Stiff servos demand several times as much; only the robot's own are held to the rule.
-    let [own, stiff] = &price.trials[..] else {
+    let [own, stiff] = &cost.trials[..] else {
         panic!("two servos");
     };
     assert!(stiff.demanded_shoulder > 2.0 * own.demanded_shoulder);
     // Twice the heat that is allowed, and what is demanded above 1 N·m.
-    assert!((price.violation - own.demanded_shoulder).abs() < 1e-12);
+    assert!((cost.violation - own.demanded_shoulder).abs() < 1e-12);
 }
 
 #[test]
@@ -235,13 +235,13 @@ fn settings_after_a_broken_one_are_not_tried() {
     let aim = CycleAim { rules, ..ADVANCE };
     let costs = CycleCosts::new(settings.into(), aim, &base).unwrap();
     let cost = |depth| costs.cost(&base, depth);
-    let (price, quote) = (cost(Depth::UntilBroken), cost(Depth::Everything));
-    assert_eq!((price.trials.len(), quote.trials.len()), (1, 2));
+    let (short, whole) = (cost(Depth::UntilBroken), cost(Depth::Everything));
+    assert_eq!((short.trials.len(), whole.trials.len()), (1, 2));
     let too_high = |trial: &Trial| trial.top.0 / 0.1 - 1.0;
-    near(price.violation, too_high(&price.trials[0]) + UNTRIED);
-    let high: f64 = quote.trials.iter().map(too_high).sum();
-    near(quote.violation, high);
-    near(price.value, -price.trials[0].advance);
+    near(short.violation, too_high(&short.trials[0]) + UNTRIED);
+    let high: f64 = whole.trials.iter().map(too_high).sum();
+    near(whole.violation, high);
+    near(short.value, -short.trials[0].advance);
 }
 
 /// What happens in a setting is a reason too, with the setting's name.
@@ -261,12 +261,12 @@ fn a_setting_that_cannot_be_crawled_is_named() {
     hasty.steering.as_mut().unwrap().spread = 3.0;
     let kind = settings[1].spec.kind;
     let costs = CycleCosts::new(settings.into(), ADVANCE, &base).unwrap();
-    let price = costs.cost(&hasty, Depth::UntilBroken);
-    let Some(Refusal::Crawl { setting, source }) = price.refusal else {
-        panic!("{price:?}");
+    let cost = costs.cost(&hasty, Depth::UntilBroken);
+    let Some(Refusal::Crawl { setting, source }) = cost.refusal else {
+        panic!("{cost:?}");
     };
     assert_eq!(setting, kind);
-    near(price.violation, UNTRIED + excess_speed_of_crawl(&source));
+    near(cost.violation, UNTRIED + excess_speed_of_crawl(&source));
 }
 
 #[test]
