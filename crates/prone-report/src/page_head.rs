@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 /// What stands in a page's `head` before its style. `policy` is its content security policy.
-pub(crate) fn of(title: &str, policy: &str) -> Markup {
+pub(crate) fn from_title(title: &str, policy: &str) -> Markup {
     html! {
         meta charset="utf-8";
         meta name="viewport" content="width=device-width, initial-scale=1";

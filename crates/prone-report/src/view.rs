@@ -46,7 +46,7 @@ pub fn page(runs: &[&Run]) -> Result<String, serde_json::Error> {
         (DOCTYPE)
         html lang="en" {
             head {
-                (page_head::of(&title, POLICY))
+                (page_head::from_title(&title, POLICY))
             }
             body {
                 div #app {}

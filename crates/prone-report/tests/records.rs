@@ -24,7 +24,7 @@ fn report(folder: &Path) -> Report {
         name: "RUN".to_owned(),
         folder: folder.to_owned(),
     };
-    Report::of(&[source], &Unpublished).unwrap()
+    Report::from_folders(&[source], &Unpublished).unwrap()
 }
 
 /// How many messages each topic of an MCAP file has.

@@ -22,7 +22,13 @@ pub fn figure(
         joints,
         rows,
         cycles: shown,
+        not_simulated,
     } = record;
+    let ours = if not_simulated.is_none() {
+        ", ours"
+    } else {
+        ""
+    };
     let Some(end) = rows.last().map(|row| row.time_s) else {
         return Ok(None);
     };
@@ -61,26 +67,26 @@ pub fn figure(
     let panels: Vec<Panel> = panels.collect();
     let mut key = vec![
         KeyEntry::line(
-            "measured, ours".to_owned(),
+            format!("measured{ours}"),
             Stroke::solid(INK, CURVE_WIDTH),
             None,
         ),
         KeyEntry::line(
-            "commanded, ours".to_owned(),
+            format!("commanded{ours}"),
             Stroke::solid(LIGHT, CURVE_WIDTH + 1.0),
             None,
         ),
     ];
-    let mut source = "Ours: simulation, one value per 20 ms.".to_owned();
+    let mut source = not_simulated.as_ref().map_or_else(
+        || "Ours: simulation, one value per 20 ms.".to_owned(),
+        |from| format!("Source: {from}."),
+    );
     if any_band {
         key.push(KeyEntry::band(
             "range on the crawling robot, published".to_owned(),
             BAND,
         ));
-        source.push_str(
-            " Published: the range that the same joint swept on the real robot at 3 s a cycle, read \
-             off the original's figure.",
-        );
+        source.push_str(" Published: the range that the same joint swept on a robot.");
     }
     let sheet = Sheet {
         key,

@@ -108,6 +108,8 @@ pub struct AngleRecord {
     pub rows: Vec<AngleRow>,
     /// How many cycles these are.
     pub cycles: usize,
+    /// Where they were recorded, if they were not simulated.
+    pub not_simulated: Option<String>,
 }
 
 /// One instant.

@@ -2,22 +2,21 @@
 
 use maud::{Markup, html};
 
+use super::html_table::table;
 use prone_record::curves_info::{CurveInfo, CurvesInfo};
 
 /// The parameters, in the order of [`CurvesInfo::to_array`].
 pub const NAMES: [&str; 3] = ["θ3", "θ4", "α"];
 
 /// What a gait that was found is made of.
-pub fn found(gait: &str, run: &str, curves: &CurvesInfo) -> Markup {
-    html! {
-        div.scroll { table {
-            caption { strong { "Gait parameters, " (gait) "." } " Ours, found by the search in " (run) "; rad, s from 0 to 1." }
-            thead { tr { th scope="col" { "parameter" } th scope="col" { "curve" } } }
-            tbody { @for (name, curve) in NAMES.into_iter().zip(curves.to_array()) {
-                tr { th scope="row" { (name) } td { (numbers(curve)) } }
-            } }
-        } }
-    }
+pub(super) fn found(gait: &str, run: &str, curves: &CurvesInfo) -> Markup {
+    let caption = html! {
+        strong { "Gait parameters, " (gait) "." } " Ours, found by the search in " (run) "; rad, s from 0 to 1."
+    };
+    let rows = NAMES.into_iter().zip(curves.to_array());
+    let rows =
+        rows.map(|(name, curve)| html! { th scope="row" { (name) } td { (numbers(curve)) } });
+    table(caption, &["parameter", "curve"], rows)
 }
 
 /// c₃ to c₀ of a polynomial of degree 3 or less.

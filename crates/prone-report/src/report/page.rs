@@ -2,17 +2,19 @@
 
 use std::collections::BTreeSet;
 
-use base64::Engine as _;
-use base64::engine::general_purpose::STANDARD as BASE64;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::folder::Given;
-use super::publication::{MadeBy, Part, Place, Publication, PublishedRun};
+use super::publication::{Part, Place, Publication, PublishedRun};
+use super::replay::Replay;
+use super::run::Content;
 use super::shown::{Image, Shown};
 use super::{
-    Card, LARGEST_PAGE, ReportError, Run, card_sections, curve_tables, replay, run_sections,
+    Card, LARGEST_PAGE, ReportError, Run, card_sections, curve_tables, figure_html, places,
+    run_sections,
 };
 use crate::page_head;
+use crate::view::record::not_simulated;
 
 const STYLE: &str = include_str!("style.css");
 
@@ -48,7 +50,7 @@ impl Page<'_> {
             below = self.below();
         }
         let room = room.saturating_sub(below.0.len());
-        let replay = replay::of(self.runs, room)?;
+        let replay = Replay::from_runs(self.runs, room)?;
         let replayed = replay
             .as_ref()
             .map_or_else(Vec::new, |replay| replay.shown.clone());
@@ -57,7 +59,7 @@ impl Page<'_> {
             (DOCTYPE)
             html lang="en" {
                 head {
-                    (page_head::of(&title, POLICY))
+                    (page_head::from_title(&title, POLICY))
                     style { (PreEscaped(STYLE)) }
                 }
                 body {
@@ -98,7 +100,7 @@ impl Page<'_> {
             (self.shortfalls())
             (self.unrecorded())
             @for run in self.published() { (run.results()) }
-            (card_sections::all(self.cards))
+            (card_sections::all(self.cards, self.publication))
         }
     }
 
@@ -114,21 +116,34 @@ impl Page<'_> {
     }
 
     fn header(&self) -> Markup {
+        let not_simulated = self.not_simulated();
         html! {
             header {
                 h1 { (self.publication.title()) }
                 p.lead {
                     "Made from the records of " (self.titles().join("; ")) ". " (self.publication.lead()) " "
-                    strong { "Ours" } " is what this program simulated; " strong { "published" }
-                    " is the thesis; " strong { "theirs" } " is somebody else's. No robot took part."
+                    strong { "Ours" } " is what this program simulated; "
+                    @if let Some(name) = self.publication.name() { strong { "published" } " is " (name) "; " }
+                    strong { "theirs" } " is somebody else's. "
+                    @if not_simulated.is_empty() { "No robot took part." }
+                    @else { "Not simulated: " (not_simulated.join(", ")) "." }
                 }
             }
         }
     }
 
+    /// The records that were not simulated, and where each comes from.
+    fn not_simulated(&self) -> Vec<String> {
+        let records = self.runs.iter().filter_map(|run| {
+            let from = not_simulated(&run.record()?.info.origin)?;
+            Some(format!("{} ({from})", run.folder.name))
+        });
+        records.collect()
+    }
+
     /// The folders that were named.
     fn titles(&self) -> Vec<String> {
-        let folders = self.runs.iter().map(Run::folder);
+        let folders = self.runs.iter().map(|run| &run.folder);
         let named = folders.filter(|folder| folder.given == Given::Named);
         named
             .map(|folder| format!("{} ({})", folder.name, folder.head.command))
@@ -136,7 +151,7 @@ impl Page<'_> {
     }
 
     fn shortfalls(&self) -> Markup {
-        let sentences: Vec<String> = self.runs.iter().flat_map(Run::shortfalls).collect();
+        let sentences: Vec<&String> = self.runs.iter().flat_map(|run| &run.shortfalls).collect();
         html! {
             @if !sentences.is_empty() {
                 section.warning {
@@ -148,7 +163,7 @@ impl Page<'_> {
     }
 
     fn unrecorded(&self) -> Markup {
-        let sentences: Vec<&String> = self.runs.iter().flat_map(Run::unrecorded).collect();
+        let sentences: Vec<&String> = self.runs.iter().flat_map(|run| &run.unrecorded).collect();
         html! {
             @if !sentences.is_empty() {
                 section {
@@ -160,8 +175,8 @@ impl Page<'_> {
     }
 
     fn published(&self) -> impl Iterator<Item = &dyn PublishedRun> {
-        self.runs.iter().filter_map(|run| match run {
-            Run::Published(_, run) => Some(run.as_ref()),
+        self.runs.iter().filter_map(|run| match &run.content {
+            Content::Published(run) => Some(run.as_ref()),
             _ => None,
         })
     }
@@ -187,7 +202,7 @@ impl Page<'_> {
             .filter(|shown| shown.number == place.number)
             .collect();
         html! {
-            @if figures.is_empty() { (empty(place)) }
+            @if figures.is_empty() { (figure_html::empty(place)) }
             // What is published stands below the first of several.
             @for (index, figure) in figures.iter().enumerate() {
                 (self.captioned(figure, place.published.as_deref().filter(|_| index == 0)))
@@ -206,14 +221,8 @@ impl Page<'_> {
     fn captioned(&self, figure: &Shown, published: Option<&str>) -> Markup {
         html! {
             figure id=(figure.stem) {
-                @if self.left_out.contains(&figure.stem) {
-                    div.place { p {
-                        "Left out, as the page would be too large: " code { "figures/" (figure.stem) ".png" }
-                        " of a report that is written into a folder."
-                    } }
-                } @else {
-                    (image(figure))
-                }
+                @if self.left_out.contains(&figure.stem) { (figure_html::left_out(figure)) }
+                @else { (figure_html::image(figure)) }
                 figcaption {
                     strong {
                         @if !figure.number.is_empty() { "Figure " (figure.number) ". " }
@@ -229,10 +238,7 @@ impl Page<'_> {
 
     /// Figures that have no place in the publication.
     fn beyond(&self) -> Markup {
-        let has_place = |number: &str| {
-            let mut parts = self.publication.parts().iter();
-            parts.any(|part| part.places.iter().any(|place| place.number == number))
-        };
+        let has_place = |number: &str| places(self.publication).any(|place| place.number == number);
         let others = self.shown.iter();
         let others: Vec<&Shown> = others.filter(|shown| !has_place(&shown.number)).collect();
         html! {
@@ -251,10 +257,8 @@ impl Page<'_> {
     fn curves(&self) -> Markup {
         html! {
             @for run in self.runs {
-                @if let Run::Search(search) = run {
-                    (curve_tables::found(
-                        &search.result.gait, &search.folder.name, &search.result.curves,
-                    ))
+                @if let Content::Pulls(result) = &run.content {
+                    (curve_tables::found(&result.gait, &run.folder.name, &result.curves))
                 }
             }
         }
@@ -265,8 +269,9 @@ impl Page<'_> {
         html! {
             footer {
                 p {
-                    "Written by prone " (env!("CARGO_PKG_VERSION")) " from records that it made; nothing was \
-                     simulated for this page."
+                    "Written by prone " (env!("CARGO_PKG_VERSION")) " from records"
+                    @if self.not_simulated().is_empty() { " that it made" }
+                    "; nothing was simulated for this page."
                     @if !robots.is_empty() {
                         " Text without a source is about " (robots.join(" and ")) "."
                     }
@@ -277,19 +282,17 @@ impl Page<'_> {
 
     /// Names of the robots of the records, each once.
     fn robots(&self) -> Vec<String> {
-        let mut robots = Vec::new();
-        for run in self.runs {
-            let robot = match run.record() {
-                Some(record) => Some(record.robot.name.clone()),
-                None => run.folder().said("/robot/name"),
-            };
-            robots.extend(robot.filter(|robot| !robots.contains(robot)));
+        let mut robots: Vec<String> = Vec::new();
+        for robot in self.runs.iter().filter_map(|run| run.robot.as_ref()) {
+            if !robots.contains(robot) {
+                robots.push(robot.clone());
+            }
         }
         robots
     }
 }
 
-fn replay_section(replay: &replay::Replay) -> Markup {
+fn replay_section(replay: &Replay) -> Markup {
     html! {
         section {
             h2 { "Replay" }
@@ -312,54 +315,10 @@ fn replay_section(replay: &replay::Replay) -> Markup {
     }
 }
 
-/// A figure that is not there: what fills its place.
-fn empty(place: &Place) -> Markup {
-    html! {
-        div.place id={ "place-" (place.number) } {
-            p {
-                strong { "Figure " (place.number) ": " (place.shows) ". " }
-                @match &place.made_by {
-                    MadeBy::Command(command) => {
-                        "Not among these runs. " code { (command) } " makes it; give its folder to "
-                        code { "prone report" } "."
-                    }
-                    MadeBy::Robot => {
-                        "Comes with a robot on the wire, which prone does not drive yet."
-                    }
-                }
-            }
-            @if let Some(published) = &place.published { p { (published) } }
-        }
-    }
-}
-
-fn image(figure: &Shown) -> Markup {
-    let picture = |kind: &str, bytes: &[u8]| {
-        html! { img alt=(figure.alt) src={ "data:image/" (kind) ";base64," (BASE64.encode(bytes)) }; }
-    };
-    match &figure.image {
-        Image::Drawing { svg, .. } => html! {
-            div.drawing role="img" aria-label=(figure.alt) { (PreEscaped(inline(svg))) }
-        },
-        Image::Recorded {
-            small: Some(small), ..
-        } => picture("png", small),
-        // In an image nothing of a drawing can run or load.
-        Image::Recorded { svg, .. } => html! { div.drawing { (picture("svg+xml", svg)) } },
-    }
-}
-
-/// An SVG document as a part of a page: without its XML declaration.
-fn inline(svg: &str) -> &str {
-    svg.find("<svg").map_or(svg, |start| &svg[start..])
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::publication::Unpublished;
     use super::*;
-    use crate::figures::GaitNumbers;
-    use crate::report::Folder;
 
     /// Two sections of four figures, the last of which takes a robot.
     struct Chapter(Vec<Part>);
@@ -369,10 +328,7 @@ mod tests {
             let place = |number: u32| Place {
                 number: number.to_string(),
                 shows: format!("figure {number}"),
-                made_by: match number {
-                    29 => MadeBy::Robot,
-                    _ => MadeBy::Command("prone reproduce".to_owned()),
-                },
+                command: (number != 29).then(|| "prone reproduce".to_owned()),
                 published: None,
             };
             let part = |numbers: std::ops::Range<u32>| Part {
@@ -389,24 +345,8 @@ mod tests {
             "A chapter"
         }
 
-        fn lead(&self) -> &'static str {
-            "Numbers are its own."
-        }
-
         fn parts(&self) -> &[Part] {
             &self.0
-        }
-
-        fn gaits(&self) -> &[GaitNumbers] {
-            &[]
-        }
-
-        fn joint_range(&self, _: &str) -> Option<(f64, f64)> {
-            None
-        }
-
-        fn read(&self, _: &Folder) -> Option<Result<Box<dyn PublishedRun>, ReportError>> {
-            None
         }
     }
 

@@ -73,11 +73,11 @@ impl Run {
 /// # Errors
 /// [`ReadError`] where nothing can be shown.
 pub fn read(folder: &Path) -> Result<Run, ReadError> {
-    Ok(of(&Recorded::read(folder)?))
+    Ok(from_record(&Recorded::read(folder)?))
 }
 
 /// Packs a record.
-pub fn of(record: &Recorded) -> Run {
+pub fn from_record(record: &Recorded) -> Run {
     let mut model = record.model.clone();
     strip_inertia(&mut model);
     shorten(&mut model);
@@ -143,7 +143,7 @@ fn facts(run: &RecordInfo) -> Vec<(&'static str, String)> {
         ("steering", steering),
         ("pull", pull_s.map(|seconds| format!("{seconds:?} s"))),
         ("engine", head.engine.clone()),
-        ("recorded on", recorded_on(&run.origin)),
+        ("recorded on", not_simulated(&run.origin)),
         (
             "recorded by",
             Some(format!(
@@ -164,7 +164,7 @@ fn facts(run: &RecordInfo) -> Vec<(&'static str, String)> {
 }
 
 /// Where a record comes from that was not simulated.
-fn recorded_on(origin: &Origin) -> Option<String> {
+pub(crate) fn not_simulated(origin: &Origin) -> Option<String> {
     match origin {
         Origin::Simulated(_) => None,
         Origin::Robot(robot) => Some(format!("the robot {}", robot.host)),

@@ -1,59 +1,27 @@
-//! Reading result folders whose drawings are shown as they are: searches of whole cycles, frontiers,
-//! torque maps.
+//! Reading the result folders of searches of whole cycles: `prone optimize`, `prone crawl frontier`.
 
 use super::ReportError;
-use super::cut_table::Cut;
 use super::folder::Folder;
-use crate::figures::{Figure, GenerationRecord, Scores, SearchRecord, generations};
-use prone_record::figure_entry::FigureEntry;
+use super::run::{Content, Run};
+use crate::figures::{GenerationRecord, Scores, SearchRecord, generations};
 use prone_record::frontier::{CycleObjective, Found, Frontier};
 use prone_record::search_plan::UnderPlan;
 
-/// What such a command left behind.
-pub(super) struct DrawnRun {
-    pub(super) folder: Folder,
-    pub(super) recorded: Vec<FigureEntry>,
-    /// Of a search of whole cycles.
-    pub(super) cycles: Option<Frontier>,
-    /// Generation by generation, the search of cycles that found the best.
-    pub(super) history: Option<SearchRecord>,
-    pub(super) cuts: Vec<Cut>,
-}
-
-impl DrawnRun {
-    /// A search of whole cycles, whose heats may be shares of another cycle's.
-    pub(super) fn cycles(folder: Folder, under: &UnderPlan) -> Result<Self, ReportError> {
-        let result: Frontier = folder.json("result.json")?;
-        let mut cuts = Vec::new();
-        Ok(Self {
-            recorded: folder.figures()?,
-            history: history(&folder, &result, under, &mut cuts)?,
-            cycles: Some(result),
-            cuts,
-            folder,
-        })
-    }
-
-    /// Slices of a torque map.
-    pub(super) fn map(folder: Folder) -> Result<Self, ReportError> {
-        Ok(Self {
-            recorded: folder.figures()?,
-            cycles: None,
-            history: None,
-            cuts: Vec::new(),
-            folder,
-        })
-    }
-
-    /// Figure 24, drawn from the table.
-    pub(super) fn drawing(&self) -> Result<Option<Figure>, ReportError> {
-        let drawn = self.history.as_ref().map(generations).transpose();
-        let drawn = drawn.map_err(|source| ReportError::Figure {
-            run: self.folder.name.clone(),
-            source,
-        })?;
-        Ok(drawn.flatten())
-    }
+/// Reads a search, whose heats may be shares of another cycle's; the generations are drawn from their
+/// table.
+pub(super) fn read(folder: Folder, under: &UnderPlan) -> Result<Run, ReportError> {
+    let result: Frontier = folder.json("result.json")?;
+    let mut cuts = Vec::new();
+    let drawing = match history(&folder, &result, under, &mut cuts)? {
+        Some(history) => folder.drawn(generations(&history))?,
+        None => None,
+    };
+    let recorded = folder.figures()?;
+    let mut run = Run::new(folder, Content::Cycles(result));
+    run.drawings.extend(drawing);
+    run.recorded = recorded;
+    run.shortfalls = cuts;
+    Ok(run)
 }
 
 /// What the values of a search are, in which unit, and that unit in theirs; searches minimise, so that
@@ -74,12 +42,12 @@ fn history(
     folder: &Folder,
     result: &Frontier,
     under: &UnderPlan,
-    cuts: &mut Vec<Cut>,
+    cuts: &mut Vec<String>,
 ) -> Result<Option<SearchRecord>, ReportError> {
-    let mut table = folder.table("history.csv")?;
+    let table = folder.table("history.csv")?;
     let [ceiling, seed, generation] = table.columns(["ceiling_mm", "seed", "generation"])?;
     let columns = table.columns(["best_violation", "best_value", "mean_violation"])?;
-    let rows = table.rows(|line| {
+    let rows = table.rows(cuts, |line| {
         // A cycle that cannot be crawled has no value.
         let [best_violation, best_value, mean_violation] =
             columns.map(|column| line.text(column).parse::<f64>().ok());
@@ -93,7 +61,6 @@ fn history(
         };
         Some((line.optional(ceiling).ok()?, line.whole(seed)?, row))
     });
-    cuts.extend(table.cut());
     let order = |found: &Found| (found.violation, found.value.unwrap_or(f64::INFINITY));
     let best = result.found.iter().min_by(|a, b| {
         let (a, b) = (order(a), order(b));

@@ -1,0 +1,133 @@
+//! Reading the result folder of `prone optimize` over pulls.
+
+use serde::Deserialize;
+
+use super::folder::Folder;
+use super::publication::Publication;
+use super::run::{Content, Run};
+use super::{ReportError, chains};
+use crate::figures::{
+    ConfirmedRecord, GenerationRecord, Scores, SearchRecord, confirmation, generations, parameters,
+};
+use prone_record::curves_info::CurvesInfo;
+use prone_record::search_plan::{PullAimPlan, PullPlan};
+
+/// What is needed of `result.json`, and of the plan.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub(super) struct SearchResult {
+    /// What was minimised, as it was asked for.
+    #[serde(skip)]
+    pub(super) aim: String,
+    /// Where torques came from.
+    #[serde(skip)]
+    pub(super) source: String,
+    pub(super) gait: String,
+    pub(super) curves: CurvesInfo,
+    pub(super) cost: Option<f64>,
+    pub(super) torque: Option<f64>,
+    pub(super) violations: f64,
+    pub(super) unit: String,
+    pub(super) seed: u64,
+    pub(super) evaluations: u64,
+    pub(super) complete: bool,
+    pub(super) compared: Vec<ComparedGait>,
+    pub(super) verdicts: Vec<VerdictRow>,
+}
+
+/// Another gait's cost.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub(super) struct ComparedGait {
+    pub(super) gait: String,
+    pub(super) torque_ratio: Option<f64>,
+}
+
+/// The found gait against another in simulation.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub(super) struct VerdictRow {
+    pub(super) regime: String,
+    pub(super) against: String,
+    pub(super) cheaper_at: usize,
+    pub(super) of: usize,
+    pub(super) best_ratio: Option<f64>,
+    pub(super) worst_ratio: Option<f64>,
+}
+
+/// Reads a search; its figures are drawn from its tables.
+pub(super) fn read(
+    folder: Folder,
+    plan: &PullPlan,
+    publication: &dyn Publication,
+) -> Result<Run, ReportError> {
+    let aim = plan.pricing.aim.name();
+    let result = SearchResult {
+        aim: aim.to_owned(),
+        source: plan.pricing.source.name().to_owned(),
+        ..folder.json("result.json")?
+    };
+    let (scores, objective) = match &plan.pricing.aim {
+        // The published cost is one of torque.
+        PullAimPlan::Published { .. } => (Scores::Published, "torque"),
+        _ => (Scores::Graded, aim),
+    };
+    let mut cuts = Vec::new();
+    let history = SearchRecord {
+        seed: result.seed,
+        objective: objective.to_owned(),
+        unit: result.unit.clone(),
+        scores,
+        generations: history(&folder, result.seed, &mut cuts)?,
+    };
+    let confirmed = confirmed(&folder, &mut cuts)?;
+    let chains = chains::read(&folder, None, &mut cuts)?;
+    let drawings = [
+        folder.drawn(generations(&history))?,
+        folder.drawn(confirmation(&confirmed, objective))?,
+        parameters(publication.gaits(), &chains),
+    ];
+    let mut run = Run::new(folder, Content::Pulls(Box::new(result)));
+    run.drawings = drawings.into_iter().flatten().collect();
+    run.shortfalls = cuts;
+    Ok(run)
+}
+
+/// The generations of the run with a seed.
+fn history(
+    folder: &Folder,
+    seed: u64,
+    cuts: &mut Vec<String>,
+) -> Result<Vec<GenerationRecord>, ReportError> {
+    let table = folder.table("history.csv")?;
+    let [of, generation] = table.columns(["seed", "generation"])?;
+    let bests = table.columns(["best_violation", "best_torque", "mean_violation"])?;
+    let [mean, mean_feasible] = table.columns(["mean_torque", "mean_feasible_torque"])?;
+    let rows = table.rows(cuts, |line| {
+        // A gait without a cost has no torque; such a best is written as "inf".
+        let [violation, torque, mean_violation] =
+            bests.map(|column| line.text(column).parse::<f64>().ok());
+        let row = GenerationRecord {
+            generation: line.whole(generation)?,
+            best_violation: violation?,
+            best_value: torque?,
+            mean_violation: mean_violation?,
+            mean_value: line.optional(mean).ok()?,
+            mean_feasible_value: line.optional(mean_feasible).ok()?,
+        };
+        Some((line.whole(of)?, row))
+    });
+    let own = rows.into_iter().filter(|(of, _)| *of == seed);
+    Ok(own.map(|(_, row)| row).collect())
+}
+
+fn confirmed(folder: &Folder, cuts: &mut Vec<String>) -> Result<Vec<ConfirmedRecord>, ReportError> {
+    let table = folder.table("confirmation.csv")?;
+    let [regime, gait, duration, ratio] =
+        table.columns(["regime", "gait", "duration_s", "ratio"])?;
+    Ok(table.rows(cuts, |line| {
+        Some(ConfirmedRecord {
+            regime: line.text(regime).to_owned(),
+            gait: line.text(gait).to_owned(),
+            duration_s: line.number(duration)?,
+            ratio: line.optional(ratio).ok()?,
+        })
+    }))
+}
