@@ -95,7 +95,7 @@ fn a_whole_record_is_exported_with_its_robot() {
     let compiled = compiled_robot(home.path(), &info).unwrap();
     let robot = compiled.robot();
     let model = RecordedModel::read(home.path()).unwrap();
-    let text = urdf::of(robot, &model).unwrap();
+    let text = urdf::from_record(robot, &model).unwrap();
     assert_eq!(text.matches("<link ").count(), robot.bodies.len());
     assert_eq!(text.matches("type=\"revolute\"").count(), joints);
     // A capsule is three solids that are drawn and collide, an ellipsoid is drawn, a box collides.

@@ -6,7 +6,7 @@ use super::panel::{Aspect, Curve, Note, Panel, Rule};
 use super::sheet::Sheet;
 use super::style::{Fill, INK, Marker, Shape, Stroke};
 use super::svg::{Anchor, Point};
-use super::{Figure, Wording, sentence};
+use super::{Figure, FigureError, Wording, sentence};
 use prone_record::pulls::{ChainRecord, ChainSample};
 
 /// Postures drawn, first and last among them.
@@ -28,12 +28,16 @@ const NAMES: [(&str, Point, Anchor); 6] = [
 ];
 
 /// Stick figures of one gait; nothing without samples.
-pub(super) fn figure(record: &ChainRecord, number: &'static str) -> Option<Figure> {
+pub(super) fn figure(
+    record: &ChainRecord,
+    number: &'static str,
+) -> Result<Option<Figure>, FigureError> {
     let postures = instants(&record.samples);
-    let highest = record
-        .samples
-        .iter()
-        .max_by(|a, b| a.points_mm[ANKLE].1.total_cmp(&b.points_mm[ANKLE].1))?;
+    let height = |sample: &&ChainSample| sample.points_mm[ANKLE].1;
+    let by_height = |a: &&ChainSample, b: &&ChainSample| height(a).total_cmp(&height(b));
+    let Some(highest) = record.samples.iter().max_by(by_height) else {
+        return Ok(None);
+    };
     let bar = ColourBar {
         label: "phase s, –".to_owned(),
         steps: postures
@@ -42,13 +46,8 @@ pub(super) fn figure(record: &ChainRecord, number: &'static str) -> Option<Figur
             .collect(),
     };
     let gait = &record.gait;
-    let sheet = Sheet {
-        panels: vec![panel(&postures, highest, &bar)],
-        key: Vec::new(),
-        bar: Some(Bar::Steps(bar)),
-        columns: 1,
-        frame_height: 250.0,
-    };
+    let panel = panel(&postures, highest, &bar);
+    let sheet = Sheet::new(1, 250.0, [panel]).with_bar(Bar::Steps(bar));
     let height_mm = highest.points_mm[ANKLE].1;
     let wording = Wording {
         stem: format!("fig-{number}-{gait}-chain"),
@@ -66,7 +65,7 @@ pub(super) fn figure(record: &ChainRecord, number: &'static str) -> Option<Figur
              forward. The ankle's highest point is {height_mm:.0} millimetres."
         ),
     };
-    Some(wording.with(&sheet))
+    sheet.figure(wording).map(Some)
 }
 
 /// Equally spaced samples, the first and the last included.

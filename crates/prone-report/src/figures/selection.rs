@@ -47,7 +47,10 @@ pub(super) fn names(gaits: &[GaitNumbers]) -> Vec<&'static str> {
 }
 
 /// The names in order of appearance, `first` ones foremost, each once.
-pub(super) fn gaits<'a>(names: impl Iterator<Item = &'a str>, first: &[&'a str]) -> Vec<&'a str> {
+pub(super) fn each_once<'a>(
+    names: impl Iterator<Item = &'a str>,
+    first: &[&'a str],
+) -> Vec<&'a str> {
     let mut found: Vec<&str> = Vec::new();
     for name in names {
         if !found.contains(&name) {
@@ -85,7 +88,7 @@ mod tests {
     fn known_gaits_come_first() {
         let names = ["ours", "optimal", "nominal", "ours"];
         assert_eq!(
-            gaits(names.into_iter(), &["nominal", "optimal"]),
+            each_once(names.into_iter(), &["nominal", "optimal"]),
             ["nominal", "optimal", "ours"]
         );
     }

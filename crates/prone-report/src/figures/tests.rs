@@ -301,13 +301,15 @@ fn numbers_no_axis_can_show_are_named() {
     let error = drawn(&[], &[broken], &[]).unwrap_err().to_string();
     assert_eq!(
         error,
-        "knee torque of nominal, 5 s, row 7: NaN cannot be drawn"
+        "fig-36-nominal-torque-by-duration, panel 5 s: NaN cannot be drawn"
     );
-    let timeless = PullRecord {
-        duration_s: 0.0,
-        ..pull("nominal", 5.0)
-    };
-    assert!(drawn(&[], &[timeless], &[]).is_err());
+    let mut huge = chain("nominal");
+    huge.samples[3].parameters_deg[0] = 2e9;
+    let error = drawn(&[huge], &[], &[]).unwrap_err().to_string();
+    assert_eq!(
+        error,
+        "fig-25-gait-parameters, panel θ3 (knee): 2000000000 cannot be drawn"
+    );
 }
 
 #[test]

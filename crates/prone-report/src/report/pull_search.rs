@@ -82,7 +82,7 @@ pub(super) fn read(
     let drawings = [
         folder.drawn(generations(&history))?,
         folder.drawn(confirmation(&confirmed, objective))?,
-        parameters(publication.gaits(), &chains),
+        folder.drawn(parameters(publication.gaits(), &chains))?,
     ];
     let mut run = Run::new(folder, Content::Pulls(Box::new(result)));
     run.drawings = drawings.into_iter().flatten().collect();
