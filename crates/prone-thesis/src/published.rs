@@ -71,9 +71,6 @@ pub const OPTIMAL_COEFFICIENTS: [[f64; 4]; 3] = [
     [-0.2134, 1.1570, -1.9898, 0.52360],
 ];
 
-/// Advance of the real robot per crawl cycle in [`TABLE_CRAWLS`], mm.
-pub const ROBOT_ADVANCE_MM: [f64; 2] = [610.0 / 9.0, 1676.4 / 25.0];
-
 /// The height at which Figure 26 shows the ankle's highest point, mm, as its text words it.
 pub const ANKLE_PEAK_MM: &str = "about 100";
 
@@ -104,6 +101,13 @@ pub struct TableCrawl {
     pub distance_mm: f64,
     /// In which time, s.
     pub time_s: f64,
+}
+
+impl TableCrawl {
+    /// How far it came per cycle, mm.
+    pub const fn mm_per_cycle(&self) -> f64 {
+        self.distance_mm / self.cycles as f64
+    }
 }
 
 /// The two experiments of the real robot.

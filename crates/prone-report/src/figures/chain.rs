@@ -80,11 +80,7 @@ fn instants(samples: &[ChainSample]) -> Vec<ChainSample> {
 }
 
 fn panel(postures: &[ChainSample], highest: &ChainSample, bar: &ColourBar) -> Panel {
-    let joint = Marker {
-        shape: Shape::Circle,
-        fill: Fill::Full,
-        radius: 3.2,
-    };
+    let joint = Marker::new(Shape::Circle, Fill::Full, 3.2);
     let mut curves: Vec<Curve> = postures
         .iter()
         .enumerate()
@@ -98,11 +94,7 @@ fn panel(postures: &[ChainSample], highest: &ChainSample, bar: &ColourBar) -> Pa
     curves.push(Curve {
         points: vec![peak],
         stroke: Stroke::solid(INK, 1.0),
-        marker: Some(Marker {
-            shape: Shape::Diamond,
-            fill: Fill::Hollow,
-            radius: 5.0,
-        }),
+        marker: Some(Marker::new(Shape::Diamond, Fill::Hollow, 5.0)),
     });
     let (x, y) = axes(postures, peak);
     let mut panel = Panel::new("side view", x, y, curves);

@@ -121,11 +121,8 @@ fn sheet(
                 continue;
             }
             let stroke = gait_stroke(index).with_dash(source.dash);
-            let marker = Some(Marker {
-                shape: gait_shape(index),
-                fill: source.fill,
-                radius: MARKER_RADIUS,
-            });
+            let marker = Marker::new(gait_shape(index), source.fill, MARKER_RADIUS);
+            let marker = Some(marker);
             let name = format!("{name}, {}", source.label);
             key.push(KeyEntry::line(name, stroke, marker));
             curves.push(Curve {

@@ -60,11 +60,7 @@ fn line() -> Stroke {
 }
 
 fn marker(fill: Fill) -> Marker {
-    Marker {
-        shape: gait_shape(0),
-        fill,
-        radius: MARKER_RADIUS,
-    }
+    Marker::new(gait_shape(0), fill, MARKER_RADIUS)
 }
 
 /// One search: ceiling and what was reached below it, whether that holds, and its own measure.

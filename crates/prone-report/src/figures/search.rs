@@ -142,11 +142,7 @@ pub fn confirmation(
     };
     // The first gait has the first style.
     let styles = others.iter().zip(1..).map(|(&gait, index)| {
-        let marker = Marker {
-            shape: gait_shape(index),
-            fill: Fill::Full,
-            radius: MARKER_RADIUS,
-        };
+        let marker = Marker::new(gait_shape(index), Fill::Full, MARKER_RADIUS);
         (gait, gait_stroke(index), Some(marker))
     });
     let styles: Vec<(&str, Stroke, Option<Marker>)> = styles.collect();

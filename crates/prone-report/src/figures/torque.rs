@@ -201,11 +201,7 @@ fn by_joint(gait: &str, runs: &[&PullRecord], span: &Span) -> Result<Figure, Fig
 }
 
 fn joint_panel(runs: &[&PullRecord], joint: usize, span: &Span, bar: &ColourBar) -> Panel {
-    let row_marker = Marker {
-        shape: Shape::Circle,
-        fill: Fill::Full,
-        radius: SMALL_MARKER_RADIUS,
-    };
+    let row_marker = Marker::new(Shape::Circle, Fill::Full, SMALL_MARKER_RADIUS);
     let curves = runs.iter().enumerate().map(|(index, run)| {
         let rows = run.rows.iter();
         let points = rows.filter_map(|row| Some(((span.place)(row)?, row.torque_nm[joint])));

@@ -96,9 +96,15 @@ impl Page<'_> {
 
     /// What is before the replay.
     fn above(&self) -> Markup {
+        let shortfalls: Vec<&String> = self.runs.iter().flat_map(|run| &run.shortfalls).collect();
+        let unrecorded: Vec<&String> = self.runs.iter().flat_map(|run| &run.unrecorded).collect();
         html! {
-            (self.shortfalls())
-            (self.unrecorded())
+            @if !shortfalls.is_empty() {
+                section.warning { (sentences("Records that are not whole", &shortfalls)) }
+            }
+            @if !unrecorded.is_empty() {
+                section { (sentences("What was not recorded", &unrecorded)) }
+            }
             @for run in self.published() { (run.results()) }
             (card_sections::all(self.cards, self.publication))
         }
@@ -148,30 +154,6 @@ impl Page<'_> {
         named
             .map(|folder| format!("{} ({})", folder.name, folder.head.command))
             .collect()
-    }
-
-    fn shortfalls(&self) -> Markup {
-        let sentences: Vec<&String> = self.runs.iter().flat_map(|run| &run.shortfalls).collect();
-        html! {
-            @if !sentences.is_empty() {
-                section.warning {
-                    h2 { "Records that are not whole" }
-                    ul { @for sentence in &sentences { li { (sentence) } } }
-                }
-            }
-        }
-    }
-
-    fn unrecorded(&self) -> Markup {
-        let sentences: Vec<&String> = self.runs.iter().flat_map(|run| &run.unrecorded).collect();
-        html! {
-            @if !sentences.is_empty() {
-                section {
-                    h2 { "What was not recorded" }
-                    ul { @for sentence in &sentences { li { (sentence) } } }
-                }
-            }
-        }
     }
 
     fn published(&self) -> impl Iterator<Item = &dyn PublishedRun> {
@@ -289,6 +271,13 @@ impl Page<'_> {
             }
         }
         robots
+    }
+}
+
+fn sentences(heading: &str, sentences: &[&String]) -> Markup {
+    html! {
+        h2 { (heading) }
+        ul { @for sentence in sentences { li { (sentence) } } }
     }
 }
 

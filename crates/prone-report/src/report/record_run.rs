@@ -2,10 +2,12 @@
 
 use std::collections::BTreeMap;
 
+use maud::Markup;
+
 use super::ReportError;
 use super::folder::{Folder, Given};
 use super::publication::Publication;
-use super::run::{self, Content, Run};
+use super::run::{self, Content, Fact, Run};
 use crate::figures::{AngleRecord, AngleRow, crawl_angles};
 use crate::view;
 use prone_record::crawl_summary::CrawlSummary;
@@ -142,7 +144,7 @@ fn angles(record: &Recorded, chain: Vec<String>) -> AngleRecord {
 }
 
 /// The conditions of a record that are worth reading; what it does not say is `unknown`.
-fn facts(info: &RecordInfo) -> Vec<(String, String)> {
+fn facts(info: &RecordInfo) -> Markup {
     let unknown = || "unknown".to_owned();
     let word = |word: &Option<String>| word.clone().unwrap_or_else(unknown);
     let figure = |number: Option<f64>| number.map_or_else(unknown, |number| format!("{number:?}"));
@@ -168,12 +170,11 @@ fn facts(info: &RecordInfo) -> Vec<(String, String)> {
     facts.push(("time scale", figure(info.options.time_scale())));
     let seed = info.options.crawl().and_then(|options| options.seed);
     facts.extend(seed.map(|seed| ("seed of joint errors", seed.to_string())));
-    let facts = facts.into_iter();
-    let facts = facts.map(|(label, value)| (label.to_owned(), value));
-    facts.chain(run::robot_facts(&info.robot)).collect()
+    facts.extend(run::robot_facts(&info.robot));
+    run::entries(&facts)
 }
 
-fn origin_facts(origin: &Origin) -> Vec<(&'static str, String)> {
+fn origin_facts(origin: &Origin) -> Vec<Fact> {
     let list = |entries: &BTreeMap<String, String>| {
         let entries = entries
             .iter()

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use maud::{Markup, html};
 use serde::Deserialize;
 
 use super::folder::{Folder, Given};
@@ -31,8 +32,8 @@ pub struct Run {
     pub unrecorded: Vec<String>,
     /// Name of its robot, where it says.
     pub robot: Option<String>,
-    /// Under which conditions it was made: label and value.
-    pub facts: Vec<(String, String)>,
+    /// Under which conditions it was made, as entries of a description list.
+    pub facts: Markup,
 }
 
 /// What only results of one kind have.
@@ -59,7 +60,7 @@ impl Run {
             shortfalls: Vec::new(),
             unrecorded: Vec::new(),
             robot: None,
-            facts: Vec::new(),
+            facts: html! {},
         }
     }
 
@@ -121,29 +122,35 @@ fn search(folder: Folder, publication: &dyn Publication) -> Result<Run, ReportEr
         SearchPlan::Cycle(plan) => (&plan.robot, cycle_search::read(folder, &plan.under)?),
     };
     let head = plan.head();
+    let mut facts = robot_facts(robot);
+    facts.push(("solver", head.solver.name().to_owned()));
+    facts.push(("seed", head.seed.to_string()));
     let budget = head.budget.map(|budget| budget.to_string());
-    run.facts = robot_facts(robot);
-    run.facts.extend([
-        ("solver".to_owned(), head.solver.name().to_owned()),
-        ("seed".to_owned(), head.seed.to_string()),
-    ]);
-    let budget = budget.map(|budget| ("budget, evaluations".to_owned(), budget));
-    run.facts.extend(budget);
+    facts.extend(budget.map(|budget| ("budget, evaluations", budget)));
+    run.facts = entries(&facts);
     run.robot = Some(robot.name.clone());
     Ok(run)
 }
 
+/// A condition: label and value.
+pub(super) type Fact = (&'static str, String);
+
+/// Conditions as entries of a description list.
+pub(super) fn entries(facts: &[Fact]) -> Markup {
+    html! { @for (label, value) in facts { dt { (label) } dd { (value) } } }
+}
+
 /// Which robot it was.
-pub(super) fn robot_facts(robot: &RobotInfo) -> Vec<(String, String)> {
+pub(super) fn robot_facts(robot: &RobotInfo) -> Vec<Fact> {
     let facts = [
         ("robot", Some(&robot.name)),
         ("its family", robot.family.as_ref()),
         ("its version", robot.version.as_ref()),
         ("its files, SHA-256", Some(&robot.sha256)),
     ];
-    let known = facts.into_iter();
-    known
-        .filter_map(|(label, value)| Some((label.to_owned(), value?.clone())))
+    let facts = facts.into_iter();
+    facts
+        .filter_map(|(label, value)| Some((label, value?.clone())))
         .collect()
 }
 
@@ -159,6 +166,6 @@ fn map(folder: Folder) -> Result<Run, ReportError> {
     let recorded = folder.figures()?;
     let mut run = Run::new(folder, Content::Map);
     run.recorded = recorded;
-    run.facts = vec![("map".to_owned(), info.map)];
+    run.facts = entries(&[("map", info.map)]);
     Ok(run)
 }

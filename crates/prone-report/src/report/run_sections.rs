@@ -32,23 +32,7 @@ fn pulls(name: &str, result: &SearchResult) -> Markup {
         "What the simulation says of " strong { (result.gait) } ": its cost over another gait's, \
          at the durations of the confirmation. Ours."
     };
-    let heads = [
-        "regime",
-        "against",
-        "cheaper at",
-        "lowest ratio",
-        "highest ratio",
-    ];
     let ratio = |ratio: Option<f64>| optional(ratio, |ratio| format!("{ratio:.3}"));
-    let verdicts = result.verdicts.iter().map(|verdict| {
-        html! {
-            th scope="row" { (verdict.regime) }
-            td { (verdict.against) }
-            td { (verdict.cheaper_at) " of " (verdict.of) }
-            td { (ratio(verdict.best_ratio)) }
-            td { (ratio(verdict.worst_ratio)) }
-        }
-    });
     html! {
         p {
             strong { (result.gait) } ", found in " (name) " by the objective "
@@ -70,7 +54,13 @@ fn pulls(name: &str, result: &SearchResult) -> Markup {
                 }
             }
         }
-        (table(caption, &heads, verdicts))
+        (table(caption, &["regime", "against", "cheaper at", "lowest ratio", "highest ratio"], result.verdicts.iter().map(|verdict| html! {
+            th scope="row" { (verdict.regime) }
+            td { (verdict.against) }
+            td { (verdict.cheaper_at) " of " (verdict.of) }
+            td { (ratio(verdict.best_ratio)) }
+            td { (ratio(verdict.worst_ratio)) }
+        })))
     }
 }
 
@@ -86,19 +76,10 @@ fn found(name: &str, result: &Frontier) -> Markup {
          locomotion. Holds: keeps 80 % of its advance without touching in all other settings \
          of the confirmation."
     };
-    let heads = [
-        "cycle",
-        "ceiling",
-        "seed",
-        "evaluations",
-        "advance",
-        "speed",
-        "highest point",
-        "heat",
-        "holds",
-    ];
-    let rows = result.found.iter().map(|found| {
-        html! {
+    html! {
+        (table(caption, &[
+            "cycle", "ceiling", "seed", "evaluations", "advance", "speed", "highest point", "heat", "holds",
+        ], result.found.iter().map(|found| html! {
             th scope="row" { (found.gait) }
             td { (optional(found.ceiling_mm, |height| format!("{height:.0} mm"))) }
             td { (found.seed) }
@@ -111,9 +92,8 @@ fn found(name: &str, result: &Frontier) -> Markup {
                 @if found.confirmed.holds { "yes" } @else { "no" }
                 @if found.violation > 0.0 { ", breaks rules" }
             }
-        }
-    });
-    table(caption, &heads, rows)
+        })))
+    }
 }
 
 /// Conditions of every run.
@@ -128,7 +108,7 @@ pub(super) fn what_was_run(runs: &[Run]) -> Markup {
                 dl {
                     dt { "command" } dd { "prone " (head.command) ", built from commit " (head.commit) }
                     @if let Some(engine) = &head.engine { dt { "engine" } dd { (engine) } }
-                    @for (label, value) in &run.facts { dt { (label) } dd { (value) } }
+                    (run.facts)
                 }
             }
         }

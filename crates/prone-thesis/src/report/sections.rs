@@ -6,6 +6,7 @@ use crate::prose::{Numbers, Prose};
 use crate::published;
 use crate::run_info::RunInfo;
 use crate::summary::{CostRow, RatioRow, Summary};
+use crate::table_crawl::TableExperiment;
 use prone_record::contact_story::ContactStory;
 use prone_record::pulls::JOINTS;
 use prone_report::report::html_table::{optional, percent, table};
@@ -85,17 +86,12 @@ fn contact_table(story: &ContactStory) -> Markup {
         " % of the force over the whole phase."
     };
     let tenths = story.tenths_percent.iter().enumerate();
-    let rows = tenths.map(|(tenth, shares)| {
-        html! {
+    html! {
+        (table(caption, &["phase", "toes", "elbows and hands", "torso", "legs"], tenths.map(|(tenth, shares)| html! {
             td { (tenth * 10) "–" (tenth * 10 + 10) " %" }
             @for share in shares { td { (bar(*share)) (format!("{share:.0} %")) } }
-        }
-    });
-    table(
-        caption,
-        &["phase", "toes", "elbows and hands", "torso", "legs"],
-        rows,
-    )
+        })))
+    }
 }
 
 fn bar(percent: f64) -> Markup {
@@ -105,32 +101,21 @@ fn bar(percent: f64) -> Markup {
 pub(crate) fn costs(summary: &Summary) -> Markup {
     let of = |gait: &'static str| summary.costs.iter().filter(move |row| row.gait == gait);
     let rows = of(published::NOMINAL).zip(of(published::OPTIMAL));
-    let rows = rows.map(|(nominal, optimal)| {
-        html! {
-            td { (nominal.duration_s) " s" }
-            @for row in [nominal, optimal] { (cost_cells(row)) }
-            (ratio_cells(summary, nominal.duration_s))
-        }
-    });
     let caption = "∫ (τ²ankle + τ²knee + τ²hip + τ²shoulder) dt of one side, N²·m²·s. Ours: \
                    simulation of this run, trapezoid rule over 50 ms means, first value held back \
                    to 0. Published: values behind Figure 45. Below 3 s the unknown start pose of \
                    the recordings decides the cost: reported, not tuned.";
-    let heads = [
-        "duration",
-        "nominal, ours",
-        "published",
-        "difference",
-        "optimal, ours",
-        "published",
-        "difference",
-        "ratio, ours",
-        "published",
-    ];
     html! {
         section {
             h2 { "Costs, ours beside published" }
-            (table(caption, &heads, rows))
+            (table(caption, &[
+                "duration", "nominal, ours", "published", "difference",
+                "optimal, ours", "published", "difference", "ratio, ours", "published",
+            ], rows.map(|(nominal, optimal)| html! {
+                td { (nominal.duration_s) " s" }
+                @for row in [nominal, optimal] { (cost_cells(row)) }
+                (ratio_cells(summary, nominal.duration_s))
+            })))
         }
     }
 }
@@ -192,16 +177,7 @@ pub(crate) fn agreement(summary: &Summary) -> Markup {
 
 pub(crate) fn stride(summary: &Summary, numbers: &Numbers) -> Markup {
     let [first, second] = summary.stride.published_robot_mm_per_cycle;
-    let rows = summary.runs.iter().map(|run| {
-        html! {
-            td { (run.gait) ", " (run.duration_s) " s" }
-            @for value in [run.advance_mm, run.lateral_mm, run.top_mm, run.head_top_mm] {
-                // A rounded zero has no sign.
-                td { (format!("{:.1} mm", (value * 10.0).round() / 10.0 + 0.0)) }
-            }
-        }
-    });
-    let heads = ["pull", "advance", "to the left", "highest point", "head"];
+    let caption = numbers.fill(&Prose::shipped().stride);
     html! {
         section {
             h2 { "Stride and heights" }
@@ -222,46 +198,18 @@ pub(crate) fn stride(summary: &Summary, numbers: &Numbers) -> Markup {
                 }
                 "."
             }
-            (table(numbers.fill(&Prose::shipped().stride), &heads, rows))
+            (table(caption, &["pull", "advance", "to the left", "highest point", "head"], summary.runs.iter().map(|run| html! {
+                td { (run.gait) ", " (run.duration_s) " s" }
+                @for value in [run.advance_mm, run.lateral_mm, run.top_mm, run.head_top_mm] {
+                    // A rounded zero has no sign.
+                    td { (format!("{:.1} mm", (value * 10.0).round() / 10.0 + 0.0)) }
+                }
+            })))
         }
     }
 }
 
 pub(crate) fn table_crawl(summary: &Summary, info: &RunInfo) -> Markup {
-    let heads = [
-        "cycles",
-        "distance, ours",
-        "published",
-        "time, ours",
-        "published",
-        "per cycle, ours",
-        "published",
-        "speed, ours",
-        "published",
-        "touched, ours",
-    ];
-    let rows = summary.table.iter().map(|row| {
-        let (ours, theirs) = (&row.ours, &row.published);
-        html! {
-            td { (theirs.cycles) }
-            td { (format!("{:.1} mm", ours.distance_mm)) }
-            td { (format!("{:.1} mm", theirs.distance_mm)) }
-            td { (format!("{:.1} s", ours.time_s)) }
-            td { (format!("{:.0} s", theirs.time_s)) }
-            td { (format!("{:.1} mm", ours.mm_per_cycle)) }
-            td { (format!("{:.1} mm", theirs.distance_mm / theirs.cycles as f64)) }
-            td { (format!("{:.1} mm/s", ours.mm_per_s)) }
-            td { (format!("{:.1} mm/s", theirs.distance_mm / theirs.time_s)) }
-            td {
-                @if ours.contacts.is_empty() { "nothing" }
-                @for (index, contact) in ours.contacts.iter().enumerate() {
-                    @if index > 0 { "; " }
-                    (contact.obstacle) " with " (contact.body)
-                    (format!(" for {:.1} s, up to {:.0} N", contact.seconds, contact.peak_n))
-                }
-            }
-        }
-    });
     let caption = "Two experiments, ours in simulation beside the published ones on the robot.";
     html! {
         @if let Some(first) = summary.table.first() {
@@ -280,23 +228,33 @@ pub(crate) fn table_crawl(summary: &Summary, info: &RunInfo) -> Markup {
                 }
             }
         }
-        (table(caption, &heads, rows))
+        (table(caption, &[
+            "cycles", "distance, ours", "published", "time, ours", "published",
+            "per cycle, ours", "published", "speed, ours", "published", "touched, ours",
+        ], summary.table.iter().map(|TableExperiment { ours, published, .. }| html! {
+            td { (published.cycles) }
+            td { (format!("{:.1} mm", ours.distance_mm)) }
+            td { (format!("{:.1} mm", published.distance_mm)) }
+            td { (format!("{:.1} s", ours.time_s)) }
+            td { (format!("{:.0} s", published.time_s)) }
+            td { (format!("{:.1} mm", ours.mm_per_cycle)) }
+            td { (format!("{:.1} mm", published.mm_per_cycle())) }
+            td { (format!("{:.1} mm/s", ours.mm_per_s)) }
+            td { (format!("{:.1} mm/s", published.distance_mm / published.time_s)) }
+            td {
+                @if ours.contacts.is_empty() { "nothing" }
+                @for (index, contact) in ours.contacts.iter().enumerate() {
+                    @if index > 0 { "; " }
+                    (contact.obstacle) " with " (contact.body)
+                    (format!(" for {:.1} s, up to {:.0} N", contact.seconds, contact.peak_n))
+                }
+            }
+        })))
     }
 }
 
 pub(crate) fn clamps(summary: &Summary, numbers: &Numbers, family: Option<&str>) -> Markup {
     let prose = Prose::shipped();
-    let caption = "Planned gait, sampled every 1 % of the phase; ours.";
-    let heads = ["gait", "joint", "samples", "phase", "largest cut"];
-    let rows = summary.clamps.iter().map(|clamp| {
-        html! {
-            td { (clamp.gait) }
-            td { (clamp.joint) }
-            td { (clamp.samples) " of " (clamp.of_samples) }
-            td { (format!("{:.0}–{:.0} %", clamp.from_percent, clamp.to_percent)) }
-            td { (format!("{:+.2}°", clamp.largest_deg)) }
-        }
-    });
     html! {
         section {
             h2 { "Joints at their limits" }
@@ -305,30 +263,35 @@ pub(crate) fn clamps(summary: &Summary, numbers: &Numbers, family: Option<&str>)
                 @else { (prose.clamps) }
                 @if let Some(robot) = prose.of_robot(family) { " " (numbers.fill(&robot.clamps)) }
             }
-            (table(caption, &heads, rows))
+            (table("Planned gait, sampled every 1 % of the phase; ours.", &[
+                "gait", "joint", "samples", "phase", "largest cut",
+            ], summary.clamps.iter().map(|clamp| html! {
+                td { (clamp.gait) }
+                td { (clamp.joint) }
+                td { (clamp.samples) " of " (clamp.of_samples) }
+                td { (format!("{:.0}–{:.0} %", clamp.from_percent, clamp.to_percent)) }
+                td { (format!("{:+.2}°", clamp.largest_deg)) }
+            })))
         }
     }
 }
 
 pub(crate) fn mappings(summary: &Summary, numbers: &Numbers) -> Markup {
-    let caption = "Cost of the same gait under both mappings, ours, N²·m²·s.";
-    let heads = ["gait", "duration", "original", "exact", "ratio"];
-    let rows = summary.mappings.iter().map(|row| {
-        html! {
-            td { (row.gait) }
-            td { (row.duration_s) " s" }
-            td { (format!("{:.3}", row.own_n2m2s)) }
-            td { (format!("{:.3}", row.exact_n2m2s)) }
-            td { (format!("{:.3}", row.exact_n2m2s / row.own_n2m2s)) }
-        }
-    });
     html! {
         section {
             h2 { "What the mapping changes" }
             @if summary.robot.as_ref().is_some_and(|robot| robot.published.is_some()) {
                 p { (numbers.fill(&Prose::shipped().mappings)) }
             }
-            (table(caption, &heads, rows))
+            (table("Cost of the same gait under both mappings, ours, N²·m²·s.", &[
+                "gait", "duration", "original", "exact", "ratio",
+            ], summary.mappings.iter().map(|row| html! {
+                td { (row.gait) }
+                td { (row.duration_s) " s" }
+                td { (format!("{:.3}", row.own_n2m2s)) }
+                td { (format!("{:.3}", row.exact_n2m2s)) }
+                td { (format!("{:.3}", row.exact_n2m2s / row.own_n2m2s)) }
+            })))
         }
     }
 }
@@ -345,62 +308,33 @@ pub(crate) fn differences(numbers: &Numbers, family: Option<&str>) -> Markup {
     }
 }
 
-/// Under which conditions a reproduction was made.
-pub(crate) fn study_facts(info: &RunInfo) -> Vec<(String, String)> {
+/// Under which conditions a reproduction was made: entries of a list.
+pub(crate) fn study_facts(info: &RunInfo) -> Markup {
     let (options, robot) = (&info.options, &info.robot);
     let durations: Vec<String> = options.durations_s.iter().map(f64::to_string).collect();
-    let gaits = options.gaits.iter().map(|gait| {
-        let (mapping, arm) = (&gait.mapping, &gait.arm);
-        let made = format!("{}; mapping {mapping}, arms {arm}", gait.description);
-        (format!("gait {}", gait.name), made)
-    });
-    let contacts = |regime: &str, friction: f64, impratio: f64| {
-        format!("{regime}: friction {friction}, impratio {impratio}")
-    };
-    let fact = |label: &str, value: String| (label.to_owned(), value);
-    let mut facts: Vec<(String, String)> = gaits.collect();
-    facts.extend([
-        fact("durations", format!("{} s", durations.join(", "))),
-        fact(
-            "robot",
-            format!(
-                "{}, version {}, {}, SHA-256 {}",
-                robot.name,
-                robot.version_name(),
-                robot.folder,
-                robot.sha256
-            ),
-        ),
-        fact("time step", format!("{} ms", options.time_step_s * 1e3)),
-        fact(
-            "contact regime",
-            contacts(&options.regime, options.friction, options.impratio),
-        ),
-        fact(
-            "servo",
-            format!(
-                "speed command {} /s × error, at most ±{} rad/s; commands change every {} ms; torque \
-                 limit {}",
-                options.servo_rate_per_s,
-                options.servo_speed_rad_s,
-                options.control_step_s * 1e3,
-                options.effort_limit
-            ),
-        ),
-        fact("joint stops", options.stops.clone()),
-    ]);
-    facts.extend(options.table.as_ref().map(|table| {
-        let regime = contacts(&table.regime, table.friction, table.impratio);
-        let made = format!(
-            "{}; scene {}, contact regime {regime}",
-            table.description, table.scene
-        );
-        (format!("cycle {}", table.gait), made)
-    }));
-    let (posture, settle_s) = (&options.start_posture, options.settle_s);
-    let start = format!("posture {posture}, laid on the belly, held for {settle_s} s");
-    facts.push(fact("start", start));
-    facts
+    html! {
+        @for gait in &options.gaits {
+            dt { "gait " (gait.name) }
+            dd { (gait.description) "; mapping " (gait.mapping) ", arms " (gait.arm) }
+        }
+        dt { "durations" } dd { (durations.join(", ")) " s" }
+        dt { "robot" } dd { (robot.name) ", version " (robot.version_name()) ", " (robot.folder) ", SHA-256 " (robot.sha256) }
+        dt { "time step" } dd { (options.time_step_s * 1e3) " ms" }
+        dt { "contact regime" } dd { (options.regime) ": friction " (options.friction) ", impratio " (options.impratio) }
+        dt { "servo" } dd {
+            "speed command " (options.servo_rate_per_s) " /s × error, at most ±" (options.servo_speed_rad_s)
+            " rad/s; commands change every " (options.control_step_s * 1e3) " ms; torque limit " (options.effort_limit)
+        }
+        dt { "joint stops" } dd { (options.stops) }
+        @if let Some(table) = &options.table {
+            dt { "cycle " (table.gait) }
+            dd {
+                (table.description) "; scene " (table.scene) ", contact regime "
+                (table.regime) ": friction " (table.friction) ", impratio " (table.impratio)
+            }
+        }
+        dt { "start" } dd { "posture " (options.start_posture) ", laid on the belly, held for " (options.settle_s) " s" }
+    }
 }
 
 /// Smallest to largest.
