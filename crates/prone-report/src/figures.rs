@@ -37,6 +37,7 @@ pub use frontier::figure as frontier_figure;
 pub(crate) use parameters::figure as parameters;
 pub use records::{AngleRecord, AngleRow, ConfirmedRecord, GenerationRecord, Scores, SearchRecord};
 pub use search::{confirmation, generations};
+pub(crate) use selection::each_once;
 
 use prone_record::pulls::{ChainRecord, CostRecord, PullRecord};
 pub use torque::Numbers as TorqueNumbers;

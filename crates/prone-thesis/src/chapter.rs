@@ -20,9 +20,11 @@ impl Publication for Thesis {
         "The Projected Profile crawl: report"
     }
 
-    fn lead(&self) -> &'static str {
-        "Figures are numbered as in chapter 5 of the master's thesis that published this crawl (NYU \
-         Polytechnic, 2015)."
+    fn lead(&self) -> Option<&str> {
+        Some(
+            "Figures are numbered as in chapter 5 of the master's thesis that published this crawl \
+             (NYU Polytechnic, 2015).",
+        )
     }
 
     fn name(&self) -> Option<&str> {

@@ -91,14 +91,11 @@ pub fn log(record: &Recorded) -> Result<Vec<u8>, McapError> {
     let states = log.channel(joint_state, "/joint_states")?;
     let angles = known(record, |row| row.angles.as_slice());
     let torques = known(record, |row| &row.actuator_torque_nm);
-    let commands = match known(record, |row| row.command.as_slice()) {
-        Some(_) => Some(log.channel(joint_state, "/joint_commands")?),
-        None => None,
-    };
-    let poses = match has_poses(record) {
-        true => Some(log.channel(tf, "/tf")?),
-        false => None,
-    };
+    let commands = known(record, |row| row.command.as_slice());
+    let commands = commands.map(|_| log.channel(joint_state, "/joint_commands"));
+    let commands = commands.transpose()?;
+    let poses = has_poses(record).then(|| log.channel(tf, "/tf"));
+    let poses = poses.transpose()?;
     let mut pairs: BTreeMap<Pair<'_>, u16> = BTreeMap::new();
     for contact in &record.contacts {
         let pair = (contact.body, contact.with.as_str());

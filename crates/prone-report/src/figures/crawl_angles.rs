@@ -68,7 +68,7 @@ pub fn figure(
             "range on the crawling robot, published".to_owned(),
             BAND,
         ));
-        source.push_str(" Published: the range that the same joint swept on a robot.");
+        source.push_str(" The band is the published range of the joint.");
     }
     let sheet = Sheet::new(2, 130.0, panels).with_key(key);
     let wording = Wording {

@@ -1,6 +1,6 @@
 //! The ceiling against what a crawl reaches below it: advance, and heat.
 
-use super::axis::Axis;
+use super::axis::{Axis, extremes};
 use super::panel::{Curve, Panel};
 use super::sheet::{KeyEntry, Sheet};
 use super::style::{
@@ -86,9 +86,6 @@ fn panel(
         })
     };
     let searches: Vec<Search> = frontier.found.iter().filter_map(search).collect();
-    if searches.is_empty() {
-        return None;
-    }
     // The best by the search's own measure, holding ones first.
     let mut best: Vec<&Search> = Vec::new();
     for search in &searches {
@@ -111,10 +108,7 @@ fn panel(
             Fill::Hollow
         })),
     }));
-    let heights = searches.iter().map(|search| search.at.0);
-    let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), height| {
-        (low.min(height), high.max(height))
-    });
+    let (low, high) = extremes(searches.iter().map(|search| search.at.0))?;
     let room = (0.08 * (high - low)).max(2.0);
     let x = Axis::exactly("ceiling above the floor, mm", low - room, high + room);
     let values = searches.iter().map(|search| search.at.1);

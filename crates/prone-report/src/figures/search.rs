@@ -13,6 +13,23 @@ use super::{Figure, FigureError, Wording, selection};
 /// Points of a curve at most: a figure is 900 units wide.
 const MOST_POINTS: usize = 400;
 
+/// Values of the best and of the mean gait of a generation.
+type BestAndMean = fn(&GenerationRecord) -> (Option<f64>, Option<f64>);
+
+/// What scores mean, in words and in numbers.
+struct Meaning<'a> {
+    /// What a violation counts.
+    violation: &'static str,
+    violations: BestAndMean,
+    /// Title and label of the torque part.
+    value: (&'static str, String),
+    values: BestAndMean,
+    /// Of which gaits the mean is.
+    mean: &'static str,
+    /// What is minimised.
+    searched: &'a str,
+}
+
 /// Figure 24; nothing without generations.
 ///
 /// # Errors
@@ -23,48 +40,37 @@ pub fn generations(search: &SearchRecord) -> Result<Option<Figure>, FigureError>
         return Ok(None);
     }
     let (unit, objective) = (&search.unit, search.objective.as_str());
-    let (panels, known, mean, searched): ([Panel; 2], fn(&GenerationRecord) -> bool, _, _) =
-        match search.scores {
-            Scores::Published => (
-                [
-                    panel(rows, "broken rules", "violated samples", |row| {
-                        (Some(row.best_violation), Some(row.mean_violation))
-                    }),
-                    panel(
-                        rows,
-                        "torque part",
-                        &format!("Σ w τ² dt, {unit}"),
-                        |row| (Some(row.best_value), row.mean_value),
-                    ),
-                ],
-                |row| row.mean_value.is_some(),
-                "all gaits of the generation",
-                "the torque part",
-            ),
-            Scores::Graded => (
-                [
-                    panel(rows, "broken rules", "excess, shares of limits", |row| {
-                        (Some(row.best_violation), None)
-                    }),
-                    panel(
-                        rows,
-                        "gaits that keep the rules",
-                        &format!("{objective}, {unit}"),
-                        |row| {
-                            let feasible = row.best_violation == 0.0;
-                            (feasible.then_some(row.best_value), row.mean_feasible_value)
-                        },
-                    ),
-                ],
-                |row| row.mean_feasible_value.is_some(),
-                "the gaits of the generation that keep the rules",
-                objective,
-            ),
-        };
+    let meaning = match search.scores {
+        Scores::Published => Meaning {
+            violation: "violated samples",
+            violations: |row| (Some(row.best_violation), Some(row.mean_violation)),
+            value: ("torque part", format!("Σ w τ² dt, {unit}")),
+            values: |row| (Some(row.best_value), row.mean_value),
+            mean: "all gaits of the generation",
+            searched: "the torque part",
+        },
+        Scores::Graded => Meaning {
+            violation: "excess, shares of limits",
+            violations: |row| (Some(row.best_violation), None),
+            value: ("gaits that keep the rules", format!("{objective}, {unit}")),
+            values: |row| {
+                let feasible = row.best_violation == 0.0;
+                (feasible.then_some(row.best_value), row.mean_feasible_value)
+            },
+            mean: "the gaits of the generation that keep the rules",
+            searched: objective,
+        },
+    };
+    let (value, label) = &meaning.value;
+    let panels = [
+        panel(rows, "broken rules", meaning.violation, meaning.violations),
+        panel(rows, value, label, meaning.values),
+    ];
+    let (mean, searched) = (meaning.mean, meaning.searched);
     let best = KeyEntry::line("best of the run so far".to_owned(), stroke(0), None);
     let mut key = vec![best];
     let (mut title, mut dashed) = ("Best of each generation", String::new());
-    if rows.iter().any(known) {
+    if rows.iter().any(|row| (meaning.values)(row).1.is_some()) {
         let label = "mean of the generation".to_owned();
         key.push(KeyEntry::line(label, stroke(1), None));
         title = "Best and mean of each generation";
@@ -97,12 +103,7 @@ fn stroke(index: usize) -> Stroke {
     }
 }
 
-fn panel(
-    rows: &[GenerationRecord],
-    title: &str,
-    label: &str,
-    best_and_mean: impl Fn(&GenerationRecord) -> (Option<f64>, Option<f64>),
-) -> Panel {
+fn panel(rows: &[GenerationRecord], title: &str, label: &str, best_and_mean: BestAndMean) -> Panel {
     let step = rows.len().div_ceil(MOST_POINTS).max(1);
     let (mut best, mut mean) = (Vec::new(), Vec::new());
     for row in rows.iter().step_by(step).chain(rows.last()) {

@@ -47,7 +47,7 @@ pub(super) fn names(gaits: &[GaitNumbers]) -> Vec<&'static str> {
 }
 
 /// The names in order of appearance, `first` ones foremost, each once.
-pub(super) fn each_once<'a>(
+pub(crate) fn each_once<'a>(
     names: impl Iterator<Item = &'a str>,
     first: &[&'a str],
 ) -> Vec<&'a str> {

@@ -6,6 +6,7 @@ use super::card::Card;
 use super::html_table::{optional, percent};
 use super::publication::Publication;
 use super::rivals::{HEADS, RIVALS};
+use crate::figures::each_once;
 
 /// Cards of all crawls in one table, joints below; nothing without crawls.
 pub(super) fn all(cards: &[Card], publication: &dyn Publication) -> Markup {
@@ -87,12 +88,8 @@ fn all_simulated(cards: &[Card]) -> bool {
 
 /// Where the crawls come from, as their records say.
 fn origins(cards: &[Card], publication: &dyn Publication) -> Markup {
-    let mut regimes: Vec<&str> = cards
-        .iter()
-        .filter_map(|card| card.regime.as_deref())
-        .collect();
-    regimes.sort_unstable();
-    regimes.dedup();
+    let regimes = cards.iter().filter_map(|card| card.regime.as_deref());
+    let regimes = each_once(regimes, &[]);
     html! {
         p {
             @if !regimes.is_empty() {

@@ -2,6 +2,7 @@
 
 use super::ReportError;
 use super::folder::Folder;
+use super::pull_search::generation;
 use super::run::{Content, Run};
 use crate::figures::{GenerationRecord, Scores, SearchRecord, generations};
 use prone_record::frontier::{CycleObjective, Found, Frontier};
@@ -45,20 +46,16 @@ fn history(
     cuts: &mut Vec<String>,
 ) -> Result<Option<SearchRecord>, ReportError> {
     let table = folder.table("history.csv")?;
-    let [ceiling, seed, generation] = table.columns(["ceiling_mm", "seed", "generation"])?;
-    let columns = table.columns(["best_violation", "best_value", "mean_violation"])?;
+    let [ceiling, seed] = table.columns(["ceiling_mm", "seed"])?;
+    let columns = [
+        "generation",
+        "best_violation",
+        "best_value",
+        "mean_violation",
+    ];
+    let columns = table.columns(columns)?;
     let rows = table.rows(cuts, |line| {
-        // A cycle that cannot be crawled has no value.
-        let [best_violation, best_value, mean_violation] =
-            columns.map(|column| line.text(column).parse::<f64>().ok());
-        let row = GenerationRecord {
-            generation: line.whole(generation)?,
-            best_violation: best_violation?,
-            best_value: best_value?,
-            mean_violation: mean_violation?,
-            mean_value: None,
-            mean_feasible_value: None,
-        };
+        let row = generation(line, columns)?;
         Some((line.optional(ceiling).ok()?, line.whole(seed)?, row))
     });
     let order = |found: &Found| (found.violation, found.value.unwrap_or(f64::INFINITY));

@@ -52,17 +52,14 @@ impl Folder {
     pub fn records(&self) -> Vec<String> {
         let mut found = Vec::new();
         for group in ["crawls", "pulls"] {
-            let Ok(entries) = fs::read_dir(self.path.join(group)) else {
-                continue;
-            };
+            let entries = fs::read_dir(self.path.join(group)).into_iter().flatten();
             let folders = entries
                 .filter_map(Result::ok)
                 // Not a link, which may lead back here.
                 .filter(|entry| entry.file_type().is_ok_and(|kind| kind.is_dir()))
                 .filter(|entry| entry.path().join(RUN_FILE).is_file());
-            found.extend(
-                folders.map(|entry| format!("{group}/{}", entry.file_name().to_string_lossy())),
-            );
+            let names = folders.map(|entry| entry.file_name().to_string_lossy().into_owned());
+            found.extend(names.map(|name| format!("{group}/{name}")));
         }
         found.sort();
         found

@@ -13,14 +13,11 @@ use super::{
     Card, LARGEST_PAGE, ReportError, Run, card_sections, curve_tables, figure_html, places,
     run_sections,
 };
+use crate::figures::each_once;
 use crate::page_head;
 use crate::view::record::not_simulated;
 
 const STYLE: &str = include_str!("style.css");
-
-/// Nothing leaves the page, and nothing comes to it. The frame of the replay inherits this.
-const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; \
-                      img-src data:; base-uri 'none'; form-action 'none'";
 
 /// Number of the figure that shows what gaits are made of; their tables follow it.
 const CURVES: &str = "25";
@@ -59,7 +56,7 @@ impl Page<'_> {
             (DOCTYPE)
             html lang="en" {
                 head {
-                    (page_head::from_title(&title, POLICY))
+                    (page_head::from_title(&title))
                     style { (PreEscaped(STYLE)) }
                 }
                 body {
@@ -127,7 +124,7 @@ impl Page<'_> {
             header {
                 h1 { (self.publication.title()) }
                 p.lead {
-                    "Made from the records of " (self.titles().join("; ")) ". " (self.publication.lead()) " "
+                    "Made from the records of " (self.titles().join("; ")) ". " (self.publication.lead().unwrap_or_default()) " "
                     strong { "Ours" } " is what this program simulated; "
                     @if let Some(name) = self.publication.name() { strong { "published" } " is " (name) "; " }
                     strong { "theirs" } " is somebody else's. "
@@ -247,7 +244,8 @@ impl Page<'_> {
     }
 
     fn footer(&self) -> Markup {
-        let robots = self.robots();
+        let robots = self.runs.iter().filter_map(|run| run.robot.as_deref());
+        let robots = each_once(robots, &[]);
         html! {
             footer {
                 p {
@@ -260,17 +258,6 @@ impl Page<'_> {
                 }
             }
         }
-    }
-
-    /// Names of the robots of the records, each once.
-    fn robots(&self) -> Vec<String> {
-        let mut robots: Vec<String> = Vec::new();
-        for robot in self.runs.iter().filter_map(|run| run.robot.as_ref()) {
-            if !robots.contains(robot) {
-                robots.push(robot.clone());
-            }
-        }
-        robots
     }
 }
 

@@ -14,8 +14,8 @@ pub trait Publication: Sync {
     fn title(&self) -> &str;
 
     /// Where figures have their numbers from; a sentence or two.
-    fn lead(&self) -> &str {
-        ""
+    fn lead(&self) -> Option<&str> {
+        None
     }
 
     /// Whom "published" means, as the end of a sentence.

@@ -2,6 +2,7 @@
 
 use serde::Deserialize;
 
+use super::cut_table::{Column, Line};
 use super::folder::Folder;
 use super::publication::Publication;
 use super::run::{Content, Run};
@@ -97,25 +98,41 @@ fn history(
     cuts: &mut Vec<String>,
 ) -> Result<Vec<GenerationRecord>, ReportError> {
     let table = folder.table("history.csv")?;
-    let [of, generation] = table.columns(["seed", "generation"])?;
-    let bests = table.columns(["best_violation", "best_torque", "mean_violation"])?;
+    let [seeds] = table.columns(["seed"])?;
+    let columns = [
+        "generation",
+        "best_violation",
+        "best_torque",
+        "mean_violation",
+    ];
+    let columns = table.columns(columns)?;
     let [mean, mean_feasible] = table.columns(["mean_torque", "mean_feasible_torque"])?;
     let rows = table.rows(cuts, |line| {
-        // A gait without a cost has no torque; such a best is written as "inf".
-        let [violation, torque, mean_violation] =
-            bests.map(|column| line.text(column).parse::<f64>().ok());
         let row = GenerationRecord {
-            generation: line.whole(generation)?,
-            best_violation: violation?,
-            best_value: torque?,
-            mean_violation: mean_violation?,
             mean_value: line.optional(mean).ok()?,
             mean_feasible_value: line.optional(mean_feasible).ok()?,
+            ..generation(line, columns)?
         };
-        Some((line.whole(of)?, row))
+        Some((line.whole(seeds)?, row))
     });
     let own = rows.into_iter().filter(|(of, _)| *of == seed);
     Ok(own.map(|(_, row)| row).collect())
+}
+
+/// A generation without the means of what is minimised: its number, violation and value of the best, and
+/// mean violation.
+pub(super) fn generation(line: &Line<'_>, columns: [Column; 4]) -> Option<GenerationRecord> {
+    // A gait without a cost has no value; such a best is written as "inf".
+    let [_, best_violation, best_value, mean_violation] =
+        columns.map(|column| line.text(column).parse::<f64>().ok());
+    Some(GenerationRecord {
+        generation: line.whole(columns[0])?,
+        best_violation: best_violation?,
+        best_value: best_value?,
+        mean_violation: mean_violation?,
+        mean_value: None,
+        mean_feasible_value: None,
+    })
 }
 
 fn confirmed(folder: &Folder, cuts: &mut Vec<String>) -> Result<Vec<ConfirmedRecord>, ReportError> {

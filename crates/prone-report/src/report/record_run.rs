@@ -64,7 +64,7 @@ pub(super) fn read(folder: Folder, publication: &dyn Publication) -> Result<Run,
             let none = format!("no {SUMMARY_FILE}: there is no report card");
             unrecorded.extend(named(&[none]));
         }
-        let angles = angles(&record, chain(&folder, &record.run)?);
+        let angles = angles(&record, &chain(&folder, &record.run)?);
         let figure = crawl_angles(&angles, &|joint| publication.joint_range(joint));
         drawing = folder.drawn(figure)?;
     }
@@ -106,7 +106,7 @@ fn chain(folder: &Folder, info: &RecordInfo) -> Result<Vec<String>, ReportError>
 }
 
 /// The first cycles of the joints of a chain whose angles and commands are known all along.
-fn angles(record: &Recorded, chain: Vec<String>) -> AngleRecord {
+fn angles(record: &Recorded, chain: &[String]) -> AngleRecord {
     let rows = || {
         let rows = record.rows.iter();
         rows.filter(|row| row.cycle <= AngleRecord::CYCLES)
