@@ -40,7 +40,6 @@ pub use search::{confirmation, generations};
 pub(crate) use selection::each_once;
 
 use prone_record::pulls::{ChainRecord, CostRecord, PullRecord};
-pub use torque::Numbers as TorqueNumbers;
 pub use torque_map::figures as torque_map_figures;
 
 /// Pixels per unit of an SVG figure in the PNG that lies beside it.
@@ -107,8 +106,14 @@ pub struct GaitNumbers {
     pub chain: &'static str,
     /// Of the pictures over a pull.
     pub frames: &'static str,
-    /// Of the torques.
-    pub torque: TorqueNumbers,
+    /// Of the torques by duration.
+    pub torque_by_duration: &'static str,
+    /// Of the torques over time, by joint.
+    pub torque_over_time: &'static str,
+    /// Of the beginning of the torques.
+    pub transient: &'static str,
+    /// Of the torques over the phase.
+    pub torque_over_cycle: &'static str,
     /// Where the publication sees the curves of different durations part, s.
     pub published_divergence_s: f64,
 }

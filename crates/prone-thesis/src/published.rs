@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use prone_report::figures::{GaitNumbers, TorqueNumbers};
+use prone_report::figures::GaitNumbers;
 
 /// Values behind Figure 45: ∫ Σ τ² dt of one side at 1, 2, … 10 s, N²·m²·s.
 const NOMINAL_COSTS: [f64; 10] = [
@@ -29,24 +29,20 @@ pub const FIGURES: [GaitNumbers; 2] = [
         gait: NOMINAL,
         chain: "26",
         frames: "27",
-        torque: TorqueNumbers {
-            by_duration: "36",
-            time: "38",
-            transient: "40",
-            cycle: "42",
-        },
+        torque_by_duration: "36",
+        torque_over_time: "38",
+        transient: "40",
+        torque_over_cycle: "42",
         published_divergence_s: 0.25,
     },
     GaitNumbers {
         gait: OPTIMAL,
         chain: "34",
         frames: "35",
-        torque: TorqueNumbers {
-            by_duration: "37",
-            time: "39",
-            transient: "41",
-            cycle: "43",
-        },
+        torque_by_duration: "37",
+        torque_over_time: "39",
+        transient: "41",
+        torque_over_cycle: "43",
         published_divergence_s: 0.175,
     },
 ];

@@ -116,9 +116,8 @@ pub fn run(world: &World, plan: &Plan, watch: &dyn Watch) -> Result<TorqueStudy,
     for gait in &plan.gaits {
         let trajectory = plan_chain(world, gait, showcase)?;
         study.chains.push(chain_record(gait, &trajectory));
-        study
-            .clamps
-            .extend(clamp_records(world.robot(), gait, &trajectory));
+        let clamps = clamp_records(world.robot(), gait, &trajectory);
+        study.clamps.extend(clamps);
     }
     for (job, result) in jobs.iter().zip(results) {
         let pull = result?;
@@ -177,10 +176,8 @@ fn clamp_records<'a>(
 }
 
 fn run_record(job: &Job, pull: &Pull) -> RunRecord {
-    let end = pull
-        .rows
-        .last()
-        .map_or(pull.start, |row| row.ground_from_root);
+    let last = pull.rows.last();
+    let end = last.map_or(pull.start, |row| row.ground_from_root);
     let travel = end.origin().metres() - pull.start.origin().metres();
     let tops = |top: fn(&prone_sim::pull::Row) -> f64| {
         pull.rows.iter().map(top).fold(f64::NEG_INFINITY, f64::max) * 1e3

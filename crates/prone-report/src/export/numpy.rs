@@ -14,16 +14,10 @@ use prone_record::recorded::{Recorded, RecordedRow};
 /// An array's data begins at a multiple of this, so that it can be mapped into memory.
 const ALIGNMENT: usize = 64;
 
-/// Why there is no archive.
+/// Why there is no archive: an entry is refused, or cannot be written.
 #[derive(Debug, thiserror::Error)]
-pub enum ArchiveError {
-    /// The archive refuses an entry.
-    #[error("NumPy archive: {0}")]
-    Zip(#[from] rawzip::Error),
-    /// It cannot be written.
-    #[error("NumPy archive: {0}")]
-    Write(#[from] std::io::Error),
-}
+#[error("NumPy archive: {0}")]
+pub struct ArchiveError(#[from] rawzip::Error);
 
 /// Makes the archive. Arrays over instants begin with their axis; a number that was not recorded is
 /// NaN.
@@ -90,7 +84,7 @@ pub fn archive(record: &Recorded) -> Result<Vec<u8>, ArchiveError> {
             .compression_method(CompressionMethod::STORE);
         let (mut entry, config) = file.start()?;
         let mut writer = config.wrap(&mut entry);
-        writer.write_all(&array)?;
+        writer.write_all(&array).map_err(rawzip::Error::from)?;
         let (_, descriptor) = writer.finish()?;
         entry.finish(descriptor)?;
     }

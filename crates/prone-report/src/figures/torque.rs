@@ -21,20 +21,7 @@ const PANEL_DURATIONS_S: [f64; 6] = [1.0, 2.0, 3.0, 5.0, 7.0, 10.0];
 /// How much of the beginning the transient figures show, s.
 const TRANSIENT_S: f64 = 0.5;
 
-/// Numbers of the originals for one gait.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Numbers {
-    /// Mean torques by duration.
-    pub by_duration: &'static str,
-    /// Torques over time, by joint.
-    pub time: &'static str,
-    /// Their beginning.
-    pub transient: &'static str,
-    /// Torques over the phase.
-    pub cycle: &'static str,
-}
-
-/// How the curves look that mark where the thesis sees them part.
+/// The line where the thesis sees the curves part.
 const DIVERGENCE: Stroke = Stroke::solid(INK, 1.2).with_dash(Dash::Short);
 
 /// What a figure with one panel per joint has on its x axis.
@@ -64,7 +51,7 @@ pub(super) fn figures(
     }
     let longest_s = runs.iter().map(|run| run.duration_s).fold(0.0, f64::max);
     let time = Span {
-        number: numbers.torque.time,
+        number: numbers.torque_over_time,
         stem: "torque-over-time",
         title: "over time, by joint",
         quantity: "over time, s,",
@@ -73,7 +60,7 @@ pub(super) fn figures(
         divergence_s: None,
     };
     let transient = Span {
-        number: numbers.torque.transient,
+        number: numbers.transient,
         stem: "transient",
         title: "at the beginning, by joint",
         quantity: "over the first half second",
@@ -83,7 +70,7 @@ pub(super) fn figures(
         divergence_s: Some(numbers.published_divergence_s),
     };
     let cycle = Span {
-        number: numbers.torque.cycle,
+        number: numbers.torque_over_cycle,
         stem: "torque-over-cycle",
         title: "over the cycle, by joint",
         quantity: "over percent",
@@ -91,7 +78,7 @@ pub(super) fn figures(
         place: |row| Some(row.cycle_percent),
         divergence_s: None,
     };
-    let mut figures = vec![by_duration(gait, &runs, numbers.torque.by_duration)?];
+    let mut figures = vec![by_duration(gait, &runs, numbers.torque_by_duration)?];
     for span in [time, transient, cycle] {
         figures.push(by_joint(gait, &runs, &span)?);
     }

@@ -22,9 +22,8 @@ pub fn figures(map: &TorqueMap, slices: &[usize]) -> Result<Vec<Figure>, FigureE
         Row::Masked { .. } => None,
     });
     let scale = HeatScale::covering(TORQUE_LABEL, values.flatten());
-    let known = slices
-        .iter()
-        .filter(|slice| **slice < map.grid().knee.len());
+    let slices = slices.iter();
+    let known = slices.filter(|slice| **slice < map.grid().knee.len());
     known.map(|slice| figure(map, *slice, &scale)).collect()
 }
 
@@ -35,10 +34,8 @@ fn figure(map: &TorqueMap, slice: usize, scale: &HeatScale) -> Result<Figure, Fi
         .flat_map(|arm| (0..grid.hip.len()).map(move |hip| grid.index(slice, hip, arm)))
         .map(|index| map.rows()[index])
         .collect();
-    let masked = rows
-        .iter()
-        .filter(|row| matches!(row, Row::Masked { .. }))
-        .count();
+    let is_masked = |row: &&Row| matches!(row, Row::Masked { .. });
+    let masked = rows.iter().filter(is_masked).count();
     let key = (masked > 0).then(|| KeyEntry {
         label: format!("no torques: {masked} of {} rows are masked", rows.len()),
         sample: Sample::Hatched,

@@ -171,20 +171,20 @@ impl Image {
 impl Shown {
     /// Its files: SVG and PNG.
     pub(super) fn files(&self, png_scale: f32) -> Result<[(String, Vec<u8>); 2], ReportError> {
-        let (svg, png) = match &self.image {
-            Image::Drawing { svg, png } => {
-                let made = || figures::raster::png(svg, png_scale);
-                let png = png.clone().map_or_else(made, Ok);
-                let png = png.map_err(|source| ReportError::Figure {
+        let png = match &self.image {
+            Image::Drawing { png: Some(png), .. } | Image::Recorded { png, .. } => png.clone(),
+            Image::Drawing { svg, png: None } => {
+                figures::raster::png(svg, png_scale).map_err(|source| ReportError::Figure {
                     run: self.runs.join(", "),
                     source,
-                })?;
-                (svg.clone().into_bytes(), png)
+                })?
             }
-            Image::Recorded { svg, png, .. } => (svg.clone(), png.clone()),
         };
         Ok([
-            (format!("figures/{}.svg", self.stem), svg),
+            (
+                format!("figures/{}.svg", self.stem),
+                self.image.svg().to_vec(),
+            ),
             (format!("figures/{}.png", self.stem), png),
         ])
     }

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use crate::published::{NOMINAL_DEG, OPTIMAL_COEFFICIENTS};
 use prone_record::curves_info::{CurveInfo, CurvesInfo};
-use prone_report::report::curve_tables::{NAMES, coefficient, cubic, numbers, sign};
+use prone_report::report::curve_tables::{NAMES, coefficient, cubic, numbers, with_minus};
 use prone_report::report::html_table::table;
 
 /// Table 2: ends of the nominal gait's parameters.
@@ -68,7 +68,7 @@ fn ours_deg(curve: &CurveInfo) -> String {
 }
 
 fn span_deg([from, to]: [f64; 2]) -> String {
-    let degrees = |value: f64| format!("{}°", sign(&format!("{value:.1}")));
+    let degrees = |value: f64| format!("{}°", with_minus(value, 1));
     if (from - to).abs() < 0.05 {
         degrees(from)
     } else {
@@ -90,6 +90,6 @@ mod tests {
         assert_eq!(ours_deg(&curve(&[16.5_f64.to_radians()])), "16.5°");
         let falling = curve(&[-60.0_f64.to_radians(), -30.0_f64.to_radians()]);
         assert_eq!(ours_deg(&falling), "−30.0° to −90.0°");
-        assert_eq!(sign("-0.00000"), "0.00000");
+        assert_eq!(coefficient(-1e-9), "0.00000");
     }
 }
