@@ -32,6 +32,7 @@ mod tests;
 mod torque;
 mod torque_map;
 
+pub(crate) use axis::extremes;
 pub use crawl_angles::figure as crawl_angles;
 pub use frontier::figure as frontier_figure;
 pub(crate) use parameters::figure as parameters;

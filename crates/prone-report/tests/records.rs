@@ -3,14 +3,18 @@
 mod made;
 
 use std::collections::BTreeMap;
+use std::fs;
 use std::path::Path;
 
+use maud::{Markup, html};
 use prone::gait::cycle::{CheckedCycle, TimeScale};
 use prone_files::cycle_file;
 use prone_record::record_info::RecordInfo;
 use prone_record::recorded::{Recorded, RecordedModel, compiled_robot};
 use prone_report::export::{key_frames, numpy, ros_log, table, timeline, urdf};
-use prone_report::report::{Report, Source, Unpublished};
+use prone_report::report::{
+    Folder, Publication, PublishedRun, Report, ReportError, Run, Source, Unpublished,
+};
 use prone_report::view;
 
 fn folder(make: fn(&Path)) -> tempfile::TempDir {
@@ -73,6 +77,110 @@ fn a_whole_record_is_shown_and_reported() {
             .iter()
             .any(|figure| figure.stem == "fig-31-low-175-angles")
     );
+}
+
+/// What the page says of a record is what the record says of its origin.
+#[test]
+fn a_record_of_a_robot_is_not_called_a_simulation() {
+    let home = folder(made::driven);
+    let report = report(home.path());
+    assert_eq!(report.numbers.cards.len(), 1);
+    let page = report.html.split("srcdoc=").next().unwrap();
+    let after = report.html.rsplit("</iframe>").next().unwrap();
+    for said in [
+        "Not simulated: RUN (the robot nao.local).",
+        "RUN was not simulated: the robot nao.local.",
+    ] {
+        assert!(page.contains(said), "{said}");
+    }
+    assert!(after.contains("a crawl with low-175. Source: the robot nao.local."));
+    for wrong in [
+        "No robot",
+        "is the thesis",
+        "by simulation",
+        "ours, simulated",
+        "symmetric model",
+    ] {
+        assert!(!page.contains(wrong) && !after.contains(wrong), "{wrong}");
+    }
+    for wrong in ["measured, ours", "Ours: simulation", "records that it made"] {
+        assert!(!after.contains(wrong), "{wrong}");
+    }
+    // Of a simulation it says that, and nothing of a publication that it is not held against.
+    let home = folder(made::whole);
+    let simulated = self::report(home.path()).html;
+    for said in [
+        "Ours, by simulation in the contact regime locomotion (friction 0.7, ",
+        "No robot took part.",
+        "Ours: simulation, one value per 20 ms.",
+    ] {
+        assert!(simulated.contains(said), "{said}");
+    }
+    for published in ["is the thesis", "published robot"] {
+        assert!(!simulated.contains(published), "{published}");
+    }
+}
+
+/// A publication whose results have records within them.
+struct Study;
+
+impl Publication for Study {
+    fn title(&self) -> &'static str {
+        "A study"
+    }
+
+    fn read(&self, folder: &Folder) -> Option<Result<Run, ReportError>> {
+        let own = folder.head.command == "reproduce";
+        own.then(|| Ok(Run::published(folder, Box::new(Self))))
+    }
+}
+
+impl PublishedRun for Study {
+    fn results(&self) -> Markup {
+        html! {}
+    }
+
+    fn tables_after(&self, _: &str) -> Markup {
+        html! {}
+    }
+
+    fn sections(&self) -> Markup {
+        html! {}
+    }
+}
+
+#[test]
+fn a_folder_is_taken_once_however_often_it_is_named() {
+    let home = tempfile::tempdir().unwrap();
+    let crawl = home.path().join("crawls/a");
+    fs::create_dir_all(&crawl).unwrap();
+    made::whole(&crawl);
+    let version = env!("CARGO_PKG_VERSION");
+    let run = format!(
+        r#"{{"program": "prone", "version": "{version}", "commit": "c", "command": "reproduce"}}"#
+    );
+    fs::write(home.path().join("run.json"), run).unwrap();
+    let source = |name: &str, folder: &Path| Source {
+        name: name.to_owned(),
+        folder: folder.to_owned(),
+    };
+    let folders = |sources: &[Source]| -> Vec<String> {
+        let report = Report::from_folders(sources, &Study).unwrap();
+        assert_eq!(report.numbers.cards.len(), 1);
+        let runs = report.numbers.runs.into_iter();
+        runs.map(|run| run.folder).collect()
+    };
+    let study = source("STUDY", home.path());
+    assert_eq!(
+        folders(std::slice::from_ref(&study)),
+        ["STUDY", "STUDY/crawls/a"]
+    );
+    // One that is named is called as it was named, wherever it stands among the names.
+    let again = home.path().join("crawls/../crawls/a");
+    let own = [source("A", &crawl), study, source("B", &again)];
+    assert_eq!(folders(&own), ["A", "STUDY"]);
+    let [a, study, b] = own;
+    assert_eq!(folders(&[study, b, a]), ["STUDY", "B"]);
 }
 
 #[test]

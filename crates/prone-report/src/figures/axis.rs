@@ -94,7 +94,7 @@ impl Axis {
 }
 
 /// The least and the largest value; nothing of none.
-pub(super) fn extremes(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
+pub(crate) fn extremes(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     let ranges = values.map(|value| (value, value));
     ranges.reduce(|(low, high), (value, _)| (low.min(value), high.max(value)))
 }

@@ -38,12 +38,10 @@ pub(super) fn figure(
     let Some(highest) = record.samples.iter().max_by(by_height) else {
         return Ok(None);
     };
+    let phases = postures.iter().map(|sample| sample.s);
     let bar = ColourBar {
         label: "phase s, –".to_owned(),
-        steps: postures
-            .iter()
-            .map(|sample| format!("{:.2}", sample.s))
-            .collect(),
+        steps: phases.map(|s| format!("{s:.2}")).collect(),
     };
     let gait = &record.gait;
     let panel = panel(&postures, highest, &bar);
@@ -81,15 +79,12 @@ fn instants(samples: &[ChainSample]) -> Vec<ChainSample> {
 
 fn panel(postures: &[ChainSample], highest: &ChainSample, bar: &ColourBar) -> Panel {
     let joint = Marker::new(Shape::Circle, Fill::Full, 3.2);
-    let mut curves: Vec<Curve> = postures
-        .iter()
-        .enumerate()
-        .map(|(index, sample)| Curve {
-            points: sample.points_mm.to_vec(),
-            stroke: Stroke::solid(bar.colour(index), 2.4),
-            marker: Some(joint),
-        })
-        .collect();
+    let postures_drawn = postures.iter().enumerate().map(|(index, sample)| Curve {
+        points: sample.points_mm.to_vec(),
+        stroke: Stroke::solid(bar.colour(index), 2.4),
+        marker: Some(joint),
+    });
+    let mut curves: Vec<Curve> = postures_drawn.collect();
     let peak = highest.points_mm[ANKLE];
     curves.push(Curve {
         points: vec![peak],
@@ -111,19 +106,13 @@ fn panel(postures: &[ChainSample], highest: &ChainSample, bar: &ColourBar) -> Pa
 }
 
 fn axes(postures: &[ChainSample], peak: Point) -> (Axis, Axis) {
-    let points = postures
-        .iter()
-        .flat_map(|sample| sample.points_mm)
-        .chain([peak]);
-    let (xs, zs): (Vec<f64>, Vec<f64>) = points.unzip();
+    let points = postures.iter().flat_map(|sample| sample.points_mm);
+    let (xs, zs): (Vec<f64>, Vec<f64>) = points.chain([peak]).unzip();
     let low = |values: &[f64]| values.iter().copied().fold(0.0, f64::min) - ROOM_MM;
     let high = |values: &[f64]| values.iter().copied().fold(0.0, f64::max) + ROOM_MM;
     let x = Axis::exactly("x, forward from the toe, mm", low(&xs), high(&xs));
-    let z = Axis::exactly(
-        "z, above the floor, mm",
-        low(&zs) + ROOM_MM / 4.0,
-        high(&zs),
-    );
+    let floor = low(&zs) + ROOM_MM / 4.0;
+    let z = Axis::exactly("z, above the floor, mm", floor, high(&zs));
     (x, z)
 }
 
