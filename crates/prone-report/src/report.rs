@@ -197,10 +197,8 @@ impl Report {
     /// [`ReportError`] where a drawing has no PNG.
     pub fn figures(&self) -> Result<Artefacts, ReportError> {
         let figures = &self.numbers.figures;
-        let files = figures
-            .par_iter()
-            .map(|shown| shown.files(PNG_SCALE))
-            .collect::<Result<Vec<_>, _>>()?;
+        let files = figures.par_iter().map(|shown| shown.files(PNG_SCALE));
+        let files: Vec<_> = files.collect::<Result<_, _>>()?;
         Ok(files.into_iter().flatten().collect())
     }
 
@@ -211,14 +209,12 @@ impl Report {
     pub fn files(&self, program: &Program) -> Result<Artefacts, ReportError> {
         let mut artefacts = self.figures()?;
         artefacts.insert(PAGE_FILE.to_owned(), self.html.clone().into_bytes());
-        let numbers = json(&self.numbers).map_err(ReportError::Encode)?;
-        artefacts.insert(NUMBERS_FILE.to_owned(), numbers);
+        artefacts.insert(NUMBERS_FILE.to_owned(), json(&self.numbers)?);
         let info = ReportInfo {
             head: Head::new(program, "report", None),
             runs: &self.numbers.runs,
         };
-        let info = json(&info).map_err(ReportError::Encode)?;
-        artefacts.insert(RUN_FILE.to_owned(), info);
+        artefacts.insert(RUN_FILE.to_owned(), json(&info)?);
         Ok(artefacts)
     }
 }

@@ -61,19 +61,18 @@ pub fn from_cycle(checked: &CheckedCycle, tick_s: f64) -> Result<KeyFrames, Cycl
     ticks.sort_unstable();
     ticks.dedup();
     let last = course.tick(course.pull_s + checked.recovery_seconds());
-    let frames = ticks.into_iter().map(|tick| {
+    let frames = ticks.into_iter().map(|tick| KeyFrame {
+        tick,
+        label: labels
+            .iter()
+            .find(|(labelled, _)| *labelled == tick)
+            .map(|(_, name)| name.clone()),
         // A cycle closes, wherever its end falls between two ticks.
-        let angles = if tick == last {
+        angles: if tick == last {
             checked.extension().clone()
         } else {
             course.at(tick)
-        };
-        let label = labels.iter().find(|(labelled, _)| *labelled == tick);
-        KeyFrame {
-            tick,
-            label: label.map(|(_, name)| name.clone()),
-            angles,
-        }
+        },
     });
     Ok(KeyFrames {
         tick_s,

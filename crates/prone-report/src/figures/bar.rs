@@ -118,11 +118,9 @@ fn label<'a>(
     meaning: &str,
     values: impl Iterator<Item = &'a str>,
 ) {
-    let widest = values.map(|value| font::width(value, SMALL_SIZE, Weight::Regular));
-    let at = (
-        area.right() + 6.0 + widest.fold(0.0, f64::max) + 4.0 + TEXT_SIZE,
-        area.top + area.height / 2.0,
-    );
+    let widths = values.map(|value| font::width(value, SMALL_SIZE, Weight::Regular));
+    let across = area.right() + 6.0 + widths.fold(0.0, f64::max) + 4.0 + TEXT_SIZE;
+    let at = (across, area.top + area.height / 2.0);
     let style = TextStyle::plain(TEXT_SIZE, Anchor::Middle).looking(Look::Upward);
     canvas.text(at, meaning, style);
 }

@@ -14,10 +14,8 @@ pub(super) fn same_duration(a: f64, b: f64) -> bool {
 
 /// The pulls of `gait` that have rows, by rising duration, the first of each duration.
 pub(super) fn runs_of<'a>(pulls: &'a [PullRecord], gait: &str) -> Vec<&'a PullRecord> {
-    let mut runs: Vec<&PullRecord> = pulls
-        .iter()
-        .filter(|pull| pull.gait == gait && !pull.rows.is_empty())
-        .collect();
+    let own = |pull: &&PullRecord| pull.gait == gait && !pull.rows.is_empty();
+    let mut runs: Vec<&PullRecord> = pulls.iter().filter(own).collect();
     runs.sort_by(|a, b| a.duration_s.total_cmp(&b.duration_s));
     runs.dedup_by(|a, b| same_duration(a.duration_s, b.duration_s));
     runs
@@ -57,13 +55,9 @@ pub(crate) fn each_once<'a>(
             found.push(name);
         }
     }
+    let place = |name: &&str| first.iter().position(|known| known == name);
     // Stable: the others keep their order.
-    found.sort_by_key(|name| {
-        first
-            .iter()
-            .position(|known| known == name)
-            .unwrap_or(first.len())
-    });
+    found.sort_by_key(|name| place(name).unwrap_or(first.len()));
     found
 }
 

@@ -125,13 +125,11 @@ fn angles(record: &Recorded, chain: &[String]) -> AngleRecord {
         command_rad: pick(row.command.as_slice()),
         angle_rad: pick(row.angles.as_slice()),
     });
+    let joints = places.iter().map(|&place| &record.joints[place]);
     let last = record.rows.last().map_or(0, |row| row.cycle);
     AngleRecord {
         gait: record.run.gait.name.clone(),
-        joints: places
-            .iter()
-            .map(|&place| record.joints[place].clone())
-            .collect(),
+        joints: joints.cloned().collect(),
         // A figure without a panel is none.
         rows: if places.is_empty() {
             Vec::new()
@@ -176,9 +174,8 @@ fn facts(info: &RecordInfo) -> Markup {
 
 fn origin_facts(origin: &Origin) -> Vec<Fact> {
     let list = |entries: &BTreeMap<String, String>| {
-        let entries = entries
-            .iter()
-            .map(|(name, value)| format!("{name} {value}"));
+        let entries = entries.iter();
+        let entries = entries.map(|(name, value)| format!("{name} {value}"));
         entries.collect::<Vec<_>>().join(", ")
     };
     match origin {
@@ -191,10 +188,7 @@ fn origin_facts(origin: &Origin) -> Vec<Fact> {
             ),
             (
                 "integrator, solver, cone",
-                format!(
-                    "{}, {}, {}",
-                    simulated.integrator, simulated.solver, simulated.cone
-                ),
+                [&*simulated.integrator, &simulated.solver, &simulated.cone].join(", "),
             ),
         ],
         Origin::Robot(robot) => vec![

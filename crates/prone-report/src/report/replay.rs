@@ -70,7 +70,7 @@ fn frame(records: &[Named<'_>]) -> Result<Markup, ReportError> {
         first.set_apart(records[0].0);
         second.set_apart(records[1].0);
     }
-    let page = view::page(&replays.iter().collect::<Vec<_>>()).map_err(ReportError::Encode)?;
+    let page = view::page(&replays.iter().collect::<Vec<_>>())?;
     let titles: Vec<&str> = replays.iter().map(view::record::Run::title).collect();
     Ok(html! {
         iframe.replay title={ "Replay: " (titles.join(" beside ")) } sandbox="allow-scripts"

@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use crate::prose::{Numbers, Prose};
 use crate::published;
 use crate::run_info::RunInfo;
-use crate::summary::{CostRow, RatioRow, Summary};
+use crate::summary::{CostRow, Summary};
 use crate::table_crawl::TableExperiment;
 use prone_record::contact_story::ContactStory;
 use prone_record::pulls::JOINTS;
@@ -16,21 +16,11 @@ const START_POSE_FORGOTTEN_S: f64 = 3.0;
 
 pub(crate) fn results(summary: &Summary) -> Markup {
     let long = |duration_s: f64| duration_s >= START_POSE_FORGOTTEN_S;
-    let ratios: Vec<&RatioRow> = summary
-        .ratios
-        .iter()
-        .filter(|row| long(row.duration_s))
-        .collect();
-    let ours = span(ratios.iter().map(|row| row.ours), percent);
-    let theirs = span(ratios.iter().filter_map(|row| row.published), percent);
+    let ratios = || summary.ratios.iter().filter(|row| long(row.duration_s));
     let costs = summary.costs.iter().filter(|row| long(row.duration_s));
-    let apart = costs
-        .filter_map(|row| row.relative_difference)
-        .map(f64::abs);
+    let apart = costs.filter_map(|row| Some(row.relative_difference?.abs()));
     let agreement = summary.agreement.iter().filter(|row| long(row.duration_s));
-    let rms = span(agreement.map(|row| row.rms_nm), |value| {
-        format!("{value:.2}\u{a0}N·m")
-    });
+    let rms = agreement.map(|row| row.rms_nm);
     let strides = summary.stride.chain_mm.iter();
     let (gaits, strides): (Vec<&str>, Vec<String>) = strides
         .map(|(gait, stride)| (gait.as_str(), format!("{stride:.1}")))
@@ -40,10 +30,10 @@ pub(crate) fn results(summary: &Summary) -> Markup {
             h2 { "In short" }
             ul.cards {
                 li {
-                    strong { (ours) }
+                    strong { (span(ratios().map(|row| row.ours), percent)) }
                     span {
                         "cost of the optimal gait over the nominal one, ours, from 3 s on; published: "
-                        (theirs)
+                        (span(ratios().filter_map(|row| row.published), percent))
                     }
                 }
                 li {
@@ -51,7 +41,7 @@ pub(crate) fn results(summary: &Summary) -> Markup {
                     span { "our costs away from the published ones, from 3 s on" }
                 }
                 li {
-                    strong { (rms) }
+                    strong { (span(rms, |value| format!("{value:.2}\u{a0}N·m"))) }
                     span { "RMS between our torques and the published recordings, by joint, from 3 s on, last 80 % of the phase" }
                 }
                 li {
