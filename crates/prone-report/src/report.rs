@@ -2,8 +2,7 @@
 //!
 //! It reads records and computes no physics: drawings are made from tables again, what the engine's
 //! camera saw is shown as it was recorded. `folder` and `cut_table` read files; a `run` is what was read
-//! of one folder, by `record_run`, `pull_search` and `cycle_search`, or by a [`Publication`] of its own
-//! results. `shown` are the figures that there are; `card` is the report card; `page`, `figure_html` and
+//! of one folder, by its modules or, of its own results, by a [`Publication`]. `shown` are the figures that there are; `card` is the report card; `page`, `figure_html` and
 //! the `…sections` write.
 
 mod card;
@@ -11,7 +10,6 @@ mod card_sections;
 pub mod chains;
 pub mod curve_tables;
 mod cut_table;
-mod cycle_search;
 mod error;
 mod figure_html;
 mod folder;
@@ -19,8 +17,6 @@ pub mod html_table;
 mod page;
 mod picture;
 mod publication;
-mod pull_search;
-mod record_run;
 mod replay;
 mod rivals;
 mod run;
@@ -38,8 +34,8 @@ pub use card::{Card, JointCard};
 pub use cut_table::{Column, CutTable, Line, NoNumber};
 pub use error::ReportError;
 pub use folder::Folder;
-pub use publication::{Part, Place, Publication, PublishedRun, Unpublished};
-pub use run::Run;
+pub use publication::{Part, Place, Publication, Unpublished};
+pub use run::{PublishedRun, Run};
 pub use shown::Shown;
 
 use crate::figures::PNG_SCALE;
@@ -47,7 +43,7 @@ use folder::Given;
 use prone_record::head::Head;
 use prone_record::output::{Artefacts, RUN_FILE, json};
 use prone_record::program::Program;
-use run::real;
+use run::{real, record};
 
 /// What a page may weigh, bytes; the replay gives way.
 pub const LARGEST_PAGE: usize = 6_000_000;
@@ -135,7 +131,7 @@ impl Report {
             .par_iter()
             .map(|source| {
                 let folder = Folder::open(&source.name, &source.folder, Given::Named)?;
-                Run::read(folder, &named, publication)
+                read(folder, &named, publication)
             })
             .collect::<Result<_, _>>()?;
         let mut runs: Vec<Run> = runs.into_iter().flatten().collect();
@@ -225,6 +221,39 @@ struct ReportInfo<'a> {
     #[serde(flatten)]
     head: Head<&'static str>,
     runs: &'a [RunEntry],
+}
+
+/// Reads a folder and, of a publication's own result, the records within it that are not among those
+/// that the user `named`.
+fn read(
+    folder: Folder,
+    named: &BTreeSet<PathBuf>,
+    publication: &dyn Publication,
+) -> Result<Vec<Run>, ReportError> {
+    if let Some(published) = publication.read(&folder) {
+        let mut runs = vec![published?];
+        for inner in folder.records() {
+            let path = folder.path.join(&inner);
+            if !named.contains(&real(&path)) {
+                let name = format!("{}/{inner}", folder.name);
+                let inner = Folder::open(&name, &path, Given::Within)?;
+                runs.extend(read(inner, named, publication)?);
+            }
+        }
+        return Ok(runs);
+    }
+    let run = match folder.head.command.as_str() {
+        "crawl run" | "reproduce crawl" | "reproduce pull" => {
+            record::read(folder, &|joint| publication.joint_range(joint))
+        }
+        "optimize" | "crawl frontier" => Run::search(folder, publication.gaits()),
+        "torque-map plot" => Run::map(folder),
+        other => Err(ReportError::OtherCommand {
+            found: other.to_owned(),
+            folder: folder.path,
+        }),
+    };
+    Ok(vec![run?])
 }
 
 impl RunEntry {

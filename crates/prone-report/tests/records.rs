@@ -7,6 +7,8 @@ use std::fs;
 use std::path::Path;
 
 use maud::{Markup, html};
+use serde_json::json;
+
 use prone::gait::cycle::{CheckedCycle, TimeScale};
 use prone_files::cycle_file;
 use prone_record::record_info::RecordInfo;
@@ -118,6 +120,69 @@ fn a_record_of_a_robot_is_not_called_a_simulation() {
     }
     for published in ["is the thesis", "published robot"] {
         assert!(!simulated.contains(published), "{published}");
+    }
+}
+
+/// The conditions of a search are read from its plan, wherever that has them.
+#[test]
+fn a_search_says_its_robot_solver_seed_and_budget() {
+    let home = tempfile::tempdir().unwrap();
+    let robot = json!({
+        "name": "NAO H25 V4", "family": "nao", "version": "v4", "folder": "robots", "sha256": "0f",
+    });
+    let run = json!({
+        "program": "prone", "version": env!("CARGO_PKG_VERSION"), "commit": "c", "engine": "e",
+        "command": "optimize", "solver": "cma-es", "seed": 7, "runs": 1, "budget": 60,
+        "pricing": {
+            "aim": {
+                "objective": "torque", "weights": null, "per": "phase", "duration_s": 3.0,
+                "rate_deg_per_phase": null, "clearance": "none", "limits": "base",
+                "body_share_of": null, "body_share_percent": null, "regime": "torque-study",
+                "start": "settled",
+            },
+            "source": "statics", "from": "nominal", "mapping": "original", "arm": "fixed",
+            "robot": robot,
+        },
+        "form": "cubic", "ends": "free", "name": "found", "confirm_durations_s": [1.0],
+    });
+    let line = json!({"form": "polynomial", "coefficients_rad": [0.1]});
+    let result = json!({
+        "gait": "found", "curves": {"knee": line, "hip": line, "upper_arm": line}, "cost": null,
+        "torque": null, "violations": 0.5, "unit": "N²·m²·s", "seed": 7, "evaluations": 60,
+        "complete": true, "compared": [], "verdicts": [],
+    });
+    let points = ["toe", "ankle", "knee", "hip", "shoulder", "elbow"];
+    let points = points
+        .map(|point| format!(",{point}_x_mm,{point}_z_mm"))
+        .concat();
+    for (file, text) in [
+        ("run.json", run.to_string()),
+        ("result.json", result.to_string()),
+        (
+            "history.csv",
+            "seed,generation,best_violation,best_torque,mean_violation,mean_torque,\
+             mean_feasible_torque\n7,1,0.5,inf,0.6,,\n"
+                .to_owned(),
+        ),
+        (
+            "confirmation.csv",
+            "regime,gait,duration_s,ratio\n".to_owned(),
+        ),
+        (
+            "chains.csv",
+            format!("gait,s,theta3_deg,theta4_deg,alpha_deg{points}\n"),
+        ),
+    ] {
+        fs::write(home.path().join(file), text).unwrap();
+    }
+    let html = report(home.path()).html;
+    for said in [
+        "<dt>robot</dt><dd>NAO H25 V4</dd><dt>its family</dt><dd>nao</dd>",
+        "<dt>solver</dt><dd>cma-es</dd><dt>seed</dt><dd>7</dd><dt>budget, evaluations</dt><dd>60</dd>",
+        "Text without a source is about NAO H25 V4.",
+        "60 evaluations: no cost, violations 0.5000.",
+    ] {
+        assert!(html.contains(said), "{said}");
     }
 }
 

@@ -5,9 +5,9 @@ use std::collections::BTreeSet;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::folder::Given;
-use super::publication::{Part, Place, Publication, PublishedRun};
+use super::publication::{Part, Place, Publication};
 use super::replay::Replay;
-use super::run::Content;
+use super::run::{Content, PublishedRun};
 use super::shown::{Image, Shown};
 use super::{
     Card, LARGEST_PAGE, ReportError, Run, card_sections, curve_tables, figure_html, places,

@@ -1,6 +1,5 @@
 //! What a report is held against: a published study with numbered figures, and results of its own.
 
-use maud::Markup;
 use serde::{Deserialize, Serialize};
 
 use super::error::ReportError;
@@ -47,18 +46,6 @@ pub trait Publication: Sync {
     fn read(&self, _folder: &Folder) -> Option<Result<Run, ReportError>> {
         None
     }
-}
-
-/// A result of a publication's own command: what the page says of it beside its figures.
-pub trait PublishedRun: Send + Sync {
-    /// What stands first on the page.
-    fn results(&self) -> Markup;
-
-    /// Tables that follow the figure of a number.
-    fn tables_after(&self, number: &str) -> Markup;
-
-    /// What follows the figures.
-    fn sections(&self) -> Markup;
 }
 
 /// A section of numbered figures.

@@ -1,22 +1,24 @@
 //! What a report takes from a result folder, whatever made it.
 
-use std::collections::BTreeSet;
+mod cycle_search;
+pub(super) mod pull_search;
+pub(super) mod record;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use maud::{Markup, html};
 use serde::Deserialize;
 
-use super::folder::{Folder, Given};
-use super::publication::{Publication, PublishedRun};
-use super::pull_search::SearchResult;
-use super::record_run::Record;
-use super::{ReportError, cycle_search, pull_search, record_run};
-use crate::figures::Figure;
+use super::ReportError;
+use super::folder::Folder;
+use crate::figures::{Figure, GaitNumbers};
 use prone_record::figure_entry::FigureEntry;
 use prone_record::frontier::Frontier;
 use prone_record::program::RobotInfo;
 use prone_record::search_plan::SearchPlan;
+use pull_search::SearchResult;
+use record::Record;
 
 /// What was read of a result folder.
 pub struct Run {
@@ -34,6 +36,18 @@ pub struct Run {
     pub robot: Option<String>,
     /// Under which conditions it was made, as entries of a description list.
     pub facts: Markup,
+}
+
+/// A result of a publication's own command: what the page says of it beside its figures.
+pub trait PublishedRun: Send + Sync {
+    /// What stands first on the page.
+    fn results(&self) -> Markup;
+
+    /// Tables that follow the figure of a number.
+    fn tables_after(&self, number: &str) -> Markup;
+
+    /// What follows the figures.
+    fn sections(&self) -> Markup;
 }
 
 /// What only results of one kind have.
@@ -64,37 +78,35 @@ impl Run {
         }
     }
 
-    /// Reads a folder and, of a publication's own result, the records within it that are not among
-    /// those that the user `named`.
-    pub(super) fn read(
-        folder: Folder,
-        named: &BTreeSet<PathBuf>,
-        publication: &dyn Publication,
-    ) -> Result<Vec<Self>, ReportError> {
-        if let Some(published) = publication.read(&folder) {
-            let mut runs = vec![published?];
-            for inner in folder.records() {
-                let path = folder.path.join(&inner);
-                if !named.contains(&real(&path)) {
-                    let name = format!("{}/{inner}", folder.name);
-                    let inner = Folder::open(&name, &path, Given::Within)?;
-                    runs.extend(Self::read(inner, named, publication)?);
-                }
+    /// Reads a search, with the conditions that its plan states; `gaits` are those of a publication.
+    pub(super) fn search(folder: Folder, gaits: &[GaitNumbers]) -> Result<Self, ReportError> {
+        let plan: SearchPlan = folder.run()?;
+        let (robot, mut run) = match &plan {
+            SearchPlan::Pull(plan) => {
+                let run = pull_search::read(folder, plan, gaits)?;
+                (&plan.pricing.robot, run)
             }
-            return Ok(runs);
-        }
-        let run = match folder.head.command.as_str() {
-            "crawl run" | "reproduce crawl" | "reproduce pull" => {
-                record_run::read(folder, publication)
-            }
-            "optimize" | "crawl frontier" => search(folder, publication),
-            "torque-map plot" => map(folder),
-            other => Err(ReportError::OtherCommand {
-                found: other.to_owned(),
-                folder: folder.path,
-            }),
+            SearchPlan::Cycle(plan) => (&plan.robot, cycle_search::read(folder, &plan.under)?),
         };
-        Ok(vec![run?])
+        let head = plan.head();
+        let mut facts = robot_facts(robot);
+        facts.push(("solver", head.solver.name().to_owned()));
+        facts.push(("seed", head.seed.to_string()));
+        let budget = head.budget.map(|budget| budget.to_string());
+        facts.extend(budget.map(|budget| ("budget, evaluations", budget)));
+        run.facts = entries(&facts);
+        run.robot = Some(robot.name.clone());
+        Ok(run)
+    }
+
+    /// Reads slices of a torque map, which are shown as they were drawn.
+    pub(super) fn map(folder: Folder) -> Result<Self, ReportError> {
+        let info: MapInfo = folder.run()?;
+        let recorded = folder.figures()?;
+        let mut run = Self::new(folder, Content::Map);
+        run.recorded = recorded;
+        run.facts = entries(&[("map", info.map)]);
+        Ok(run)
     }
 
     /// The record that can be replayed, where it is one.
@@ -109,27 +121,6 @@ impl Run {
 /// A folder without links, as far as it is there.
 pub(super) fn real(folder: &Path) -> PathBuf {
     fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned())
-}
-
-/// A search, with the conditions that its plan states.
-fn search(folder: Folder, publication: &dyn Publication) -> Result<Run, ReportError> {
-    let plan: SearchPlan = folder.run()?;
-    let (robot, mut run) = match &plan {
-        SearchPlan::Pull(plan) => (
-            &plan.pricing.robot,
-            pull_search::read(folder, plan, publication)?,
-        ),
-        SearchPlan::Cycle(plan) => (&plan.robot, cycle_search::read(folder, &plan.under)?),
-    };
-    let head = plan.head();
-    let mut facts = robot_facts(robot);
-    facts.push(("solver", head.solver.name().to_owned()));
-    facts.push(("seed", head.seed.to_string()));
-    let budget = head.budget.map(|budget| budget.to_string());
-    facts.extend(budget.map(|budget| ("budget, evaluations", budget)));
-    run.facts = entries(&facts);
-    run.robot = Some(robot.name.clone());
-    Ok(run)
 }
 
 /// A condition: label and value.
@@ -158,14 +149,4 @@ pub(super) fn robot_facts(robot: &RobotInfo) -> Vec<Fact> {
 #[derive(Deserialize)]
 struct MapInfo {
     map: String,
-}
-
-/// Slices of a torque map, which are shown as they were drawn.
-fn map(folder: Folder) -> Result<Run, ReportError> {
-    let info: MapInfo = folder.run()?;
-    let recorded = folder.figures()?;
-    let mut run = Run::new(folder, Content::Map);
-    run.recorded = recorded;
-    run.facts = entries(&[("map", info.map)]);
-    Ok(run)
 }

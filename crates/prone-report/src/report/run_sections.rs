@@ -5,7 +5,7 @@ use prone_record::frontier::{ConfirmedSetting, Found, Frontier};
 
 use super::folder::Given;
 use super::html_table::{optional, table};
-use super::pull_search::SearchResult;
+use super::run::pull_search::SearchResult;
 use super::run::{Content, Run};
 
 /// What searches found; nothing without searches.

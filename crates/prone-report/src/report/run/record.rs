@@ -4,11 +4,10 @@ use std::collections::BTreeMap;
 
 use maud::Markup;
 
-use super::ReportError;
-use super::folder::{Folder, Given};
-use super::publication::Publication;
-use super::run::{self, Content, Fact, Run};
+use super::{Content, Fact, Run, entries, robot_facts};
 use crate::figures::{AngleRecord, AngleRow, crawl_angles};
+use crate::report::ReportError;
+use crate::report::folder::{Folder, Given};
 use crate::view;
 use prone_record::crawl_summary::CrawlSummary;
 use prone_record::figure_entry::FIGURES_FILE;
@@ -20,18 +19,18 @@ use prone_record::recorded::{Command, Recorded, compiled_robot};
 const SUMMARY_FILE: &str = "summary.json";
 
 /// What a crawl or a pull left behind.
-pub(super) struct Record {
-    pub(super) info: RecordInfo,
+pub(in crate::report) struct Record {
+    pub(in crate::report) info: RecordInfo,
     /// Figures of a crawl; only simulations are sure to have them.
-    pub(super) summary: Option<CrawlSummary>,
+    pub(in crate::report) summary: Option<CrawlSummary>,
     /// For the page's replay.
-    pub(super) replay: view::record::Run,
+    pub(in crate::report) replay: view::record::Run,
 }
 
 impl Record {
     /// Its place among the replays: those that the user named come first, then pulls, which are one
     /// gait beside the other.
-    pub(super) fn replay_place(&self, given: Given) -> u8 {
+    pub(in crate::report) fn replay_place(&self, given: Given) -> u8 {
         match (given, self.info.head.command) {
             (Given::Named, _) => 0,
             (Given::Within, Command::ReproducePull) => 1,
@@ -41,8 +40,11 @@ impl Record {
 }
 
 /// Reads a record. Whatever drove a robot may not know its chain, nor have summed anything up; a
-/// simulation has.
-pub(super) fn read(folder: Folder, publication: &dyn Publication) -> Result<Run, ReportError> {
+/// simulation has. `joint_range` is the published range of a joint.
+pub(in crate::report) fn read(
+    folder: Folder,
+    joint_range: &dyn Fn(&str) -> Option<(f64, f64)>,
+) -> Result<Run, ReportError> {
     let record = Recorded::read(&folder.path)?;
     let replay = view::record::from_record(&record);
     let named = |sentences: &[String]| -> Vec<String> {
@@ -65,7 +67,7 @@ pub(super) fn read(folder: Folder, publication: &dyn Publication) -> Result<Run,
             unrecorded.extend(named(&[none]));
         }
         let angles = angles(&record, &chain(&folder, &record.run)?);
-        let figure = crawl_angles(&angles, &|joint| publication.joint_range(joint));
+        let figure = crawl_angles(&angles, joint_range);
         drawing = folder.drawn(figure)?;
     }
     // The crawl of a reproduction has its pictures beside those of the pulls.
@@ -168,8 +170,8 @@ fn facts(info: &RecordInfo) -> Markup {
     facts.push(("time scale", figure(info.options.time_scale())));
     let seed = info.options.crawl().and_then(|options| options.seed);
     facts.extend(seed.map(|seed| ("seed of joint errors", seed.to_string())));
-    facts.extend(run::robot_facts(&info.robot));
-    run::entries(&facts)
+    facts.extend(robot_facts(&info.robot));
+    entries(&facts)
 }
 
 fn origin_facts(origin: &Origin) -> Vec<Fact> {

@@ -1,10 +1,10 @@
 //! Reading the result folders of searches of whole cycles: `prone optimize`, `prone crawl frontier`.
 
-use super::ReportError;
-use super::folder::Folder;
 use super::pull_search::generation;
-use super::run::{Content, Run};
+use super::{Content, Run};
 use crate::figures::{GenerationRecord, Scores, SearchRecord, generations};
+use crate::report::ReportError;
+use crate::report::folder::Folder;
 use prone_record::frontier::{CycleObjective, Found, Frontier};
 use prone_record::search_plan::UnderPlan;
 

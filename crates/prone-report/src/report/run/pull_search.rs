@@ -2,62 +2,62 @@
 
 use serde::Deserialize;
 
-use super::cut_table::{Column, Line};
-use super::folder::Folder;
-use super::publication::Publication;
-use super::run::{Content, Run};
-use super::{ReportError, chains};
+use super::{Content, Run};
+use crate::figures::GaitNumbers;
 use crate::figures::{
     ConfirmedRecord, GenerationRecord, Scores, SearchRecord, confirmation, generations, parameters,
 };
+use crate::report::cut_table::{Column, Line};
+use crate::report::folder::Folder;
+use crate::report::{ReportError, chains};
 use prone_record::curves_info::CurvesInfo;
 use prone_record::search_plan::{PullAimPlan, PullPlan};
 
 /// What is needed of `result.json`, and of the plan.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub(super) struct SearchResult {
+pub(in crate::report) struct SearchResult {
     /// What was minimised, as it was asked for.
     #[serde(skip)]
-    pub(super) aim: String,
+    pub(in crate::report) aim: String,
     /// Where torques came from.
     #[serde(skip)]
-    pub(super) source: String,
-    pub(super) gait: String,
-    pub(super) curves: CurvesInfo,
-    pub(super) cost: Option<f64>,
-    pub(super) torque: Option<f64>,
-    pub(super) violations: f64,
-    pub(super) unit: String,
-    pub(super) seed: u64,
-    pub(super) evaluations: u64,
-    pub(super) complete: bool,
-    pub(super) compared: Vec<ComparedGait>,
-    pub(super) verdicts: Vec<VerdictRow>,
+    pub(in crate::report) source: String,
+    pub(in crate::report) gait: String,
+    pub(in crate::report) curves: CurvesInfo,
+    pub(in crate::report) cost: Option<f64>,
+    pub(in crate::report) torque: Option<f64>,
+    pub(in crate::report) violations: f64,
+    pub(in crate::report) unit: String,
+    pub(in crate::report) seed: u64,
+    pub(in crate::report) evaluations: u64,
+    pub(in crate::report) complete: bool,
+    pub(in crate::report) compared: Vec<ComparedGait>,
+    pub(in crate::report) verdicts: Vec<VerdictRow>,
 }
 
 /// Another gait's cost.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub(super) struct ComparedGait {
-    pub(super) gait: String,
-    pub(super) torque_ratio: Option<f64>,
+pub(in crate::report) struct ComparedGait {
+    pub(in crate::report) gait: String,
+    pub(in crate::report) torque_ratio: Option<f64>,
 }
 
 /// The found gait against another in simulation.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub(super) struct VerdictRow {
-    pub(super) regime: String,
-    pub(super) against: String,
-    pub(super) cheaper_at: usize,
-    pub(super) of: usize,
-    pub(super) best_ratio: Option<f64>,
-    pub(super) worst_ratio: Option<f64>,
+pub(in crate::report) struct VerdictRow {
+    pub(in crate::report) regime: String,
+    pub(in crate::report) against: String,
+    pub(in crate::report) cheaper_at: usize,
+    pub(in crate::report) of: usize,
+    pub(in crate::report) best_ratio: Option<f64>,
+    pub(in crate::report) worst_ratio: Option<f64>,
 }
 
 /// Reads a search; its figures are drawn from its tables.
 pub(super) fn read(
     folder: Folder,
     plan: &PullPlan,
-    publication: &dyn Publication,
+    gaits: &[GaitNumbers],
 ) -> Result<Run, ReportError> {
     let aim = plan.pricing.aim.name();
     let result = SearchResult {
@@ -83,7 +83,7 @@ pub(super) fn read(
     let drawings = [
         folder.drawn(generations(&history))?,
         folder.drawn(confirmation(&confirmed, objective))?,
-        folder.drawn(parameters(publication.gaits(), &chains))?,
+        folder.drawn(parameters(gaits, &chains))?,
     ];
     let mut run = Run::new(folder, Content::Pulls(Box::new(result)));
     run.drawings = drawings.into_iter().flatten().collect();
