@@ -89,7 +89,7 @@ fn of_run(args: &ExportArgs, run: &RecordInfo) -> Result<(Vec<u8>, String), Fail
         Format::Urdf => {
             let robot = origin::recorded_robot(args, run)?;
             let model = RecordedModel::read(&args.run).map_err(Failure::input)?;
-            let text = urdf::of(&robot, &model).map_err(Failure::input)?;
+            let text = urdf::from_record(&robot, &model).map_err(Failure::input)?;
             let (bodies, joints) = (robot.bodies.len(), robot.joints.len());
             let said = format!("{}, {bodies} links, {joints} hinges", robot.name);
             Ok((text.into_bytes(), said))

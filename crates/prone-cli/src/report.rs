@@ -36,7 +36,7 @@ pub(crate) fn run(args: &ReportArgs) -> Result<(), Failure> {
         .build()
         .map_err(|error| Failure::Work(anyhow!("cannot start worker threads: {error}")))?;
     let report = pool
-        .install(|| Report::of(&sources, &Thesis))
+        .install(|| Report::from_folders(&sources, &Thesis))
         .map_err(failure)?;
     match place {
         Place::Page(file) => interrupt::publish(|| {

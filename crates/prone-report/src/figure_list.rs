@@ -17,12 +17,25 @@ impl FigureList {
         figure: Figure,
         png: Vec<u8>,
     ) {
-        self.insert(artefacts, folder, figure, png, Kind::Drawing);
+        let file = format!("{folder}{}", figure.stem);
+        artefacts.insert(format!("{file}.png"), png);
+        artefacts.insert(format!("{file}.svg"), figure.svg.into_bytes());
+        self.0.push(FigureEntry {
+            file,
+            number: figure.number.to_owned(),
+            title: figure.title,
+            caption: figure.caption,
+            alt: figure.alt,
+            picture: false,
+        });
     }
 
     /// Puts a picture and the SVG around it into `figures/` of the result.
     pub fn picture(&mut self, artefacts: &mut Artefacts, figure: Figure, png: Vec<u8>) {
-        self.insert(artefacts, "figures/", figure, png, Kind::Picture);
+        self.drawing(artefacts, "figures/", figure, png);
+        if let Some(entry) = self.0.last_mut() {
+            entry.picture = true;
+        }
     }
 
     /// Puts `figures.json` into the result.
@@ -33,31 +46,4 @@ impl FigureList {
         artefacts.insert(FIGURES_FILE.to_owned(), json(&self.0)?);
         Ok(())
     }
-
-    fn insert(
-        &mut self,
-        artefacts: &mut Artefacts,
-        folder: &str,
-        figure: Figure,
-        png: Vec<u8>,
-        kind: Kind,
-    ) {
-        let file = format!("{folder}{}", figure.stem);
-        artefacts.insert(format!("{file}.png"), png);
-        artefacts.insert(format!("{file}.svg"), figure.svg.into_bytes());
-        self.0.push(FigureEntry {
-            file,
-            number: figure.number.to_owned(),
-            title: figure.title,
-            caption: figure.caption,
-            alt: figure.alt,
-            picture: kind == Kind::Picture,
-        });
-    }
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Kind {
-    Drawing,
-    Picture,
 }

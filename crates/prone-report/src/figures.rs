@@ -5,15 +5,13 @@
 //! "optimal"; figures that compare gaits show every gait there is. What the records lack is left
 //! out: a panel, a curve or a whole figure.
 //!
-//! `records` holds what is drawn and is not in `prone_record::pulls`; `check` refuses what no axis can show.
-//! `style` is the look, `svg` and `font` draw, `axis`, `bar`, `panel` and `sheet` lay out, `raster` makes
-//! pixels; `parameters`, `chain`, `torque`, `comparison` and `cost` are the figures. `torque_map` draws
+//! `records` holds what is drawn and is not in `prone_record::pulls`. `style` is the look, `svg` and `font`
+//! draw, `axis`, `bar`, `panel` and `sheet` lay out, `raster` makes pixels; `parameters`, `chain`, `torque`, `comparison` and `cost` are the figures. `torque_map` draws
 //! what the thesis does not: slices of a map, with the cells and colours of `heat`.
 
 mod axis;
 mod bar;
 mod chain;
-mod check;
 mod comparison;
 mod cost;
 mod crawl_angles;
@@ -34,14 +32,15 @@ mod tests;
 mod torque;
 mod torque_map;
 
+pub(crate) use axis::extremes;
 pub use crawl_angles::figure as crawl_angles;
 pub use frontier::figure as frontier_figure;
+pub(crate) use parameters::figure as parameters;
 pub use records::{AngleRecord, AngleRow, ConfirmedRecord, GenerationRecord, Scores, SearchRecord};
 pub use search::{confirmation, generations};
+pub(crate) use selection::each_once;
 
 use prone_record::pulls::{ChainRecord, CostRecord, PullRecord};
-use sheet::Sheet;
-pub use torque::Numbers as TorqueNumbers;
 pub use torque_map::figures as torque_map_figures;
 
 /// Pixels per unit of an SVG figure in the PNG that lies beside it.
@@ -108,49 +107,39 @@ pub struct GaitNumbers {
     pub chain: &'static str,
     /// Of the pictures over a pull.
     pub frames: &'static str,
-    /// Of the torques.
-    pub torque: TorqueNumbers,
+    /// Of the torques by duration.
+    pub torque_by_duration: &'static str,
+    /// Of the torques over time, by joint.
+    pub torque_over_time: &'static str,
+    /// Of the beginning of the torques.
+    pub transient: &'static str,
+    /// Of the torques over the phase.
+    pub torque_over_cycle: &'static str,
     /// Where the publication sees the curves of different durations part, s.
     pub published_divergence_s: f64,
-}
-
-/// Figure 25 of some gaits; nothing without chains.
-pub(crate) fn parameters(gaits: &[GaitNumbers], chains: &[ChainRecord]) -> Option<Figure> {
-    check::chains(chains).ok()?;
-    parameters::figure(gaits, chains)
 }
 
 /// All figures of a study of some gaits that the records allow, in the order of their numbers.
 ///
 /// # Errors
-/// If a record holds a number that is not finite, or a duration that is not positive.
+/// [`FigureError`] where a number cannot be drawn.
 pub fn study_figures(
     gaits: &[GaitNumbers],
     chains: &[ChainRecord],
     pulls: &[PullRecord],
     costs: &[CostRecord],
 ) -> Result<Vec<Figure>, FigureError> {
-    check::chains(chains)?;
-    check::pulls(pulls)?;
-    check::costs(costs)?;
-
-    let mut figures: Vec<Figure> = parameters::figure(gaits, chains).into_iter().collect();
+    let mut figures: Vec<Figure> = parameters(gaits, chains)?.into_iter().collect();
     for numbers in gaits {
         if let Some(record) = chains.iter().find(|record| record.gait == numbers.gait) {
-            figures.extend(chain::figure(record, numbers.chain));
+            figures.extend(chain::figure(record, numbers.chain)?);
         }
-        let runs = selection::runs_of(pulls, numbers.gait);
-        let divergence_s = numbers.published_divergence_s;
-        figures.extend(torque::figures(
-            numbers.gait,
-            &runs,
-            &numbers.torque,
-            divergence_s,
-        ));
+        figures.extend(torque::figures(pulls, numbers)?);
     }
     if let [first, second, ..] = gaits {
-        figures.extend(comparison::figure(pulls, first.gait, second.gait));
-        figures.extend(cost::figures(gaits, costs, first.gait));
+        figures.extend(comparison::figure(pulls, first.gait, second.gait)?);
+        figures.extend(cost::absolute(gaits, costs)?);
+        figures.extend(cost::ratio(gaits, costs, first.gait)?);
     }
     figures.sort_by_key(|figure| figure.number);
     Ok(figures)
@@ -163,27 +152,6 @@ struct Wording {
     title: String,
     caption: String,
     alt: String,
-}
-
-impl Wording {
-    fn with(self, sheet: &Sheet) -> Figure {
-        let Self {
-            stem,
-            number,
-            title,
-            caption,
-            alt,
-        } = self;
-        let svg = sheet.draw(&stem, &title, &alt);
-        Figure {
-            stem,
-            number,
-            title,
-            caption,
-            alt,
-            svg,
-        }
-    }
 }
 
 /// `text` beginning with a capital.

@@ -1,53 +1,49 @@
 //! The report: result folders as one HTML page that loads nothing, with figures beside it.
 //!
 //! It reads records and computes no physics: drawings are made from tables again, what the engine's
-//! camera saw is shown as it was recorded. `folder` and `cut_table` read, `crawl_run`,
-//! `search_run` and `drawn_run` know what each command leaves behind, as a
-//! [`Publication`] knows of its own; `shown` are the figures that there are; `card` is the report card; `page` and the
-//! `…sections` write.
+//! camera saw is shown as it was recorded. `folder` and `cut_table` read files; a `run` is what was read
+//! of one folder, by its modules or, of its own results, by a [`Publication`]. `shown` are the figures that there are; `card` is the report card; `page`, `figure_html` and
+//! the `…sections` write.
 
 mod card;
 mod card_sections;
 pub mod chains;
-mod crawl_run;
 pub mod curve_tables;
 mod cut_table;
-mod drawn_run;
 mod error;
+mod figure_html;
 mod folder;
+pub mod html_table;
 mod page;
 mod picture;
 mod publication;
 mod replay;
 mod rivals;
+mod run;
 mod run_sections;
-mod search_run;
 mod shown;
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use rayon::prelude::*;
 use serde::Serialize;
 
 pub use card::{Card, JointCard};
-pub use cut_table::{Column, Cut, CutTable, Line, NoNumber};
+pub use cut_table::{Column, CutTable, Line, NoNumber};
 pub use error::ReportError;
 pub use folder::Folder;
-pub use publication::{MadeBy, Part, Place, Publication, PublishedRun, Unpublished};
+pub use publication::{Part, Place, Publication, Unpublished};
+pub use run::{PublishedRun, Run};
+pub use shown::Shown;
 
 use crate::figures::PNG_SCALE;
-use crawl_run::{CrawlRun, PullRun};
-use drawn_run::DrawnRun;
 use folder::Given;
 use prone_record::head::Head;
 use prone_record::output::{Artefacts, RUN_FILE, json};
 use prone_record::program::Program;
-use prone_record::record_info::RecordInfo;
-use prone_record::search_plan::SearchPlan;
-use search_run::SearchRun;
-use shown::Shown;
+use run::{real, record};
 
 /// What a page may weigh, bytes; the replay gives way.
 pub const LARGEST_PAGE: usize = 6_000_000;
@@ -67,22 +63,12 @@ pub struct Source {
     pub folder: PathBuf,
 }
 
-/// What was read of a folder.
-enum Run {
-    Published(Box<Folder>, Box<dyn PublishedRun>),
-    Crawl(Box<CrawlRun>),
-    Pull(Box<PullRun>),
-    Search(Box<SearchRun>),
-    Drawn(Box<DrawnRun>),
-}
-
 /// A finished report.
 pub struct Report {
     /// The page.
     pub html: String,
     /// What the page says, for programs.
     pub numbers: Numbers,
-    shown: Vec<Shown>,
 }
 
 /// What a report says, for programs.
@@ -93,9 +79,9 @@ pub struct Numbers {
     /// Of each crawl.
     pub cards: Vec<Card>,
     /// The figures that are there.
-    pub figures: Vec<ShownEntry>,
+    pub figures: Vec<Shown>,
     /// Figures of the chapter that are not, and what makes them.
-    pub missing: Vec<MissingEntry>,
+    pub missing: Vec<Place>,
     /// Folders in the replay.
     pub replayed: Vec<String>,
     /// What is missing of the records because tables break off, one sentence each.
@@ -118,30 +104,6 @@ pub struct RunEntry {
     pub commit: String,
 }
 
-/// A figure that is there.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct ShownEntry {
-    /// Of its original in the chapter; empty where there is none.
-    pub number: String,
-    /// Name of its files in `figures/`, without extension.
-    pub stem: String,
-    /// A few words.
-    pub title: String,
-    /// The folders that it comes from.
-    pub runs: Vec<String>,
-}
-
-/// A figure that is not there.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct MissingEntry {
-    /// Of its original in the chapter.
-    pub number: String,
-    /// What it shows.
-    pub shows: String,
-    /// The command that makes it; nothing where that takes a robot.
-    pub command: Option<String>,
-}
-
 impl Numbers {
     /// How many figures of a publication have a counterpart.
     pub const fn chapter_figures(&self) -> usize {
@@ -150,28 +112,34 @@ impl Numbers {
 }
 
 impl Report {
-    /// Reads result folders and makes the report of them, held against a publication. Drawings are made
-    /// on the current rayon pool.
+    /// Reads result folders and makes the report of them, held against a publication. A folder that is
+    /// named twice, or that is named and lies within another one, is taken once. Drawings are made on the
+    /// current rayon pool.
     ///
     /// # Errors
     /// [`ReportError`].
-    pub fn of(sources: &[Source], publication: &dyn Publication) -> Result<Self, ReportError> {
+    pub fn from_folders(
+        sources: &[Source],
+        publication: &dyn Publication,
+    ) -> Result<Self, ReportError> {
+        let mut named = BTreeSet::new();
+        let sources = sources.iter();
+        let sources: Vec<&Source> = sources
+            .filter(|source| named.insert(real(&source.folder)))
+            .collect();
         let runs: Vec<Vec<Run>> = sources
             .par_iter()
-            .map(|source| read(&source.name, &source.folder, Given::Named, publication))
-            .collect::<Result<_, _>>()?;
-        let runs: Vec<Run> = runs.into_iter().flatten().collect();
-        let shown = shown::of(&runs, publication)?;
-        let mut crawls: Vec<&CrawlRun> = runs
-            .iter()
-            .filter_map(|run| match run {
-                Run::Crawl(crawl) => Some(crawl.as_ref()),
-                _ => None,
+            .map(|source| {
+                let folder = Folder::open(&source.name, &source.folder, Given::Named)?;
+                read(folder, &named, publication)
             })
-            .collect();
-        // Those that the user named first; stable.
-        crawls.sort_by_key(|crawl| crawl.folder.given == Given::Within);
-        let cards: Vec<Card> = crawls.into_iter().filter_map(Card::from_crawl).collect();
+            .collect::<Result<_, _>>()?;
+        let mut runs: Vec<Run> = runs.into_iter().flatten().collect();
+        let shown = shown::from_runs(&mut runs)?;
+        // The crawls that the user named come first; stable.
+        let mut by_given: Vec<&Run> = runs.iter().collect();
+        by_given.sort_by_key(|run| run.folder.given == Given::Within);
+        let cards: Vec<Card> = by_given.into_iter().filter_map(Card::from_run).collect();
         let page = page::Page {
             runs: &runs,
             shown: &shown,
@@ -180,27 +148,26 @@ impl Report {
             left_out: BTreeSet::new(),
         };
         let (html, replayed) = page.html()?;
-        Ok(Self {
-            html,
-            numbers: Numbers {
-                runs: runs.iter().map(Run::entry).collect(),
-                cards,
-                figures: shown.iter().map(entry).collect(),
-                missing: missing(&shown, publication),
-                replayed,
-                shortfalls: runs.iter().flat_map(Run::shortfalls).collect(),
-                unrecorded: runs.iter().flat_map(Run::unrecorded).cloned().collect(),
-                places: places(publication).count(),
-            },
-            shown,
-        })
+        let missing = places(publication)
+            .filter(|place| shown.iter().all(|shown| shown.number != place.number));
+        let numbers = Numbers {
+            missing: missing.cloned().collect(),
+            runs: runs.iter().map(RunEntry::from_run).collect(),
+            cards,
+            figures: shown,
+            replayed,
+            shortfalls: runs.iter().flat_map(|run| run.shortfalls.clone()).collect(),
+            unrecorded: runs.iter().flat_map(|run| run.unrecorded.clone()).collect(),
+            places: places(publication).count(),
+        };
+        Ok(Self { html, numbers })
     }
 
     /// The report of a result that is not published yet: of the files that it will have.
     ///
     /// # Errors
     /// [`ReportError`].
-    pub fn of_artefacts(
+    pub fn from_artefacts(
         name: &str,
         artefacts: &Artefacts,
         publication: &dyn Publication,
@@ -217,7 +184,7 @@ impl Report {
             name: name.to_owned(),
             folder: home.path().to_owned(),
         };
-        Self::of(&[source], publication)
+        Self::from_folders(&[source], publication)
     }
 
     /// Figures as SVG and PNG, in `figures/`.
@@ -225,11 +192,9 @@ impl Report {
     /// # Errors
     /// [`ReportError`] where a drawing has no PNG.
     pub fn figures(&self) -> Result<Artefacts, ReportError> {
-        let files = self
-            .shown
-            .par_iter()
-            .map(|shown| shown.files(PNG_SCALE))
-            .collect::<Result<Vec<_>, _>>()?;
+        let figures = &self.numbers.figures;
+        let files = figures.par_iter().map(|shown| shown.files(PNG_SCALE));
+        let files: Vec<_> = files.collect::<Result<_, _>>()?;
         Ok(files.into_iter().flatten().collect())
     }
 
@@ -240,14 +205,12 @@ impl Report {
     pub fn files(&self, program: &Program) -> Result<Artefacts, ReportError> {
         let mut artefacts = self.figures()?;
         artefacts.insert(PAGE_FILE.to_owned(), self.html.clone().into_bytes());
-        let numbers = json(&self.numbers).map_err(ReportError::Encode)?;
-        artefacts.insert(NUMBERS_FILE.to_owned(), numbers);
+        artefacts.insert(NUMBERS_FILE.to_owned(), json(&self.numbers)?);
         let info = ReportInfo {
             head: Head::new(program, "report", None),
             runs: &self.numbers.runs,
         };
-        let info = json(&info).map_err(ReportError::Encode)?;
-        artefacts.insert(RUN_FILE.to_owned(), info);
+        artefacts.insert(RUN_FILE.to_owned(), json(&info)?);
         Ok(artefacts)
     }
 }
@@ -260,116 +223,50 @@ struct ReportInfo<'a> {
     runs: &'a [RunEntry],
 }
 
-/// A folder, and the records in it.
+/// Reads a folder and, of a publication's own result, the records within it that are not among those
+/// that the user `named`.
 fn read(
-    name: &str,
-    path: &Path,
-    given: Given,
+    folder: Folder,
+    named: &BTreeSet<PathBuf>,
     publication: &dyn Publication,
 ) -> Result<Vec<Run>, ReportError> {
-    let folder = Folder::open(name, path, given)?;
     if let Some(published) = publication.read(&folder) {
-        let published = published?;
-        let within = folder.records();
-        let mut runs = vec![Run::Published(Box::new(folder), published)];
-        for inner in within {
-            let (name, path) = (format!("{name}/{inner}"), path.join(&inner));
-            runs.extend(read(&name, &path, Given::Within, publication)?);
+        let mut runs = vec![published?];
+        for inner in folder.records() {
+            let path = folder.path.join(&inner);
+            if !named.contains(&real(&path)) {
+                let name = format!("{}/{inner}", folder.name);
+                let inner = Folder::open(&name, &path, Given::Within)?;
+                runs.extend(read(inner, named, publication)?);
+            }
         }
         return Ok(runs);
     }
     let run = match folder.head.command.as_str() {
-        "crawl run" | "reproduce crawl" => Run::Crawl(Box::new(CrawlRun::read(folder)?)),
-        "reproduce pull" => Run::Pull(Box::new(PullRun::read(folder)?)),
-        "optimize" | "crawl frontier" => match folder.run()? {
-            SearchPlan::Pull(plan) => Run::Search(Box::new(SearchRun::read(folder, &plan)?)),
-            SearchPlan::Cycle(plan) => Run::Drawn(Box::new(DrawnRun::cycles(folder, &plan.under)?)),
-        },
-        "torque-map plot" => Run::Drawn(Box::new(DrawnRun::map(folder)?)),
-        other => {
-            return Err(ReportError::OtherCommand {
-                folder: path.to_owned(),
-                found: other.to_owned(),
-            });
+        "crawl run" | "reproduce crawl" | "reproduce pull" => {
+            record::read(folder, &|joint| publication.joint_range(joint))
         }
+        "optimize" | "crawl frontier" => Run::search(folder, publication.gaits()),
+        "torque-map plot" => Run::map(folder),
+        other => Err(ReportError::OtherCommand {
+            found: other.to_owned(),
+            folder: folder.path,
+        }),
     };
-    Ok(vec![run])
+    Ok(vec![run?])
 }
 
-impl Run {
-    fn folder(&self) -> &Folder {
-        match self {
-            Self::Published(folder, _) => folder,
-            Self::Crawl(run) => &run.folder,
-            Self::Pull(run) => &run.folder,
-            Self::Search(run) => &run.folder,
-            Self::Drawn(run) => &run.folder,
-        }
-    }
-
-    fn entry(&self) -> RunEntry {
-        let folder = self.folder();
-        RunEntry {
-            folder: folder.name.clone(),
-            command: folder.head.command.clone(),
-            commit: folder.head.commit.clone(),
-        }
-    }
-
-    /// What is missing of its tables, one sentence each.
-    fn shortfalls(&self) -> Vec<String> {
-        let said = |cuts: &[cut_table::Cut]| cuts.iter().map(ToString::to_string).collect();
-        match self {
-            Self::Published(_, run) => run.shortfalls(),
-            Self::Search(run) => said(&run.cuts),
-            Self::Crawl(run) => run.notes.clone(),
-            Self::Pull(run) => run.notes.clone(),
-            Self::Drawn(run) => said(&run.cuts),
-        }
-    }
-
-    /// What its record never had, one sentence each.
-    fn unrecorded(&self) -> &[String] {
-        match self {
-            Self::Crawl(run) => &run.gaps,
-            Self::Pull(run) => &run.gaps,
-            Self::Published(..) | Self::Search(_) | Self::Drawn(_) => &[],
-        }
-    }
-
-    /// What a record says of itself.
-    fn record(&self) -> Option<&RecordInfo> {
-        match self {
-            Self::Crawl(run) => Some(&run.info),
-            Self::Pull(run) => Some(&run.info),
-            Self::Published(..) | Self::Search(_) | Self::Drawn(_) => None,
+impl RunEntry {
+    fn from_run(run: &Run) -> Self {
+        Self {
+            folder: run.folder.name.clone(),
+            command: run.folder.head.command.clone(),
+            commit: run.folder.head.commit.clone(),
         }
     }
 }
 
-fn entry(shown: &Shown) -> ShownEntry {
-    ShownEntry {
-        number: shown.number.clone(),
-        stem: shown.stem.clone(),
-        title: shown.title.clone(),
-        runs: shown.runs.clone(),
-    }
-}
-
+/// The numbered figures of a publication.
 fn places(publication: &dyn Publication) -> impl Iterator<Item = &Place> {
     publication.parts().iter().flat_map(|part| &part.places)
-}
-
-fn missing(shown: &[Shown], publication: &dyn Publication) -> Vec<MissingEntry> {
-    let places = places(publication);
-    let places = places.filter(|place| shown.iter().all(|shown| shown.number != place.number));
-    let missing = places.map(|place| MissingEntry {
-        number: place.number.clone(),
-        shows: place.shows.clone(),
-        command: match &place.made_by {
-            MadeBy::Command(command) => Some(command.clone()),
-            MadeBy::Robot => None,
-        },
-    });
-    missing.collect()
 }

@@ -19,10 +19,6 @@ const VIEWER: &str = include_str!("../../../viewer/dist/viewer.js");
 /// What of the JSON changed last; the script refuses another.
 const FORMAT_VERSION: u32 = 1;
 
-/// Nothing leaves the page, and nothing comes to it.
-const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; \
-                      img-src data:; base-uri 'none'; form-action 'none'";
-
 #[derive(Serialize)]
 struct Content<'a> {
     format: &'static str,
@@ -46,7 +42,7 @@ pub fn page(runs: &[&Run]) -> Result<String, serde_json::Error> {
         (DOCTYPE)
         html lang="en" {
             head {
-                (page_head::of(&title, POLICY))
+                (page_head::from_title(&title))
             }
             body {
                 div #app {}

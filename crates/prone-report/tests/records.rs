@@ -3,14 +3,20 @@
 mod made;
 
 use std::collections::BTreeMap;
+use std::fs;
 use std::path::Path;
+
+use maud::{Markup, html};
+use serde_json::json;
 
 use prone::gait::cycle::{CheckedCycle, TimeScale};
 use prone_files::cycle_file;
 use prone_record::record_info::RecordInfo;
 use prone_record::recorded::{Recorded, RecordedModel, compiled_robot};
 use prone_report::export::{key_frames, numpy, ros_log, table, timeline, urdf};
-use prone_report::report::{Report, Source, Unpublished};
+use prone_report::report::{
+    Folder, Publication, PublishedRun, Report, ReportError, Run, Source, Unpublished,
+};
 use prone_report::view;
 
 fn folder(make: fn(&Path)) -> tempfile::TempDir {
@@ -24,7 +30,7 @@ fn report(folder: &Path) -> Report {
         name: "RUN".to_owned(),
         folder: folder.to_owned(),
     };
-    Report::of(&[source], &Unpublished).unwrap()
+    Report::from_folders(&[source], &Unpublished).unwrap()
 }
 
 /// How many messages each topic of an MCAP file has.
@@ -75,6 +81,173 @@ fn a_whole_record_is_shown_and_reported() {
     );
 }
 
+/// What the page says of a record is what the record says of its origin.
+#[test]
+fn a_record_of_a_robot_is_not_called_a_simulation() {
+    let home = folder(made::driven);
+    let report = report(home.path());
+    assert_eq!(report.numbers.cards.len(), 1);
+    let page = report.html.split("srcdoc=").next().unwrap();
+    let after = report.html.rsplit("</iframe>").next().unwrap();
+    for said in [
+        "Not simulated: RUN (the robot nao.local).",
+        "RUN was not simulated: the robot nao.local.",
+    ] {
+        assert!(page.contains(said), "{said}");
+    }
+    assert!(after.contains("a crawl with low-175. Source: the robot nao.local."));
+    for wrong in [
+        "No robot",
+        "is the thesis",
+        "by simulation",
+        "ours, simulated",
+        "symmetric model",
+    ] {
+        assert!(!page.contains(wrong) && !after.contains(wrong), "{wrong}");
+    }
+    for wrong in ["measured, ours", "Ours: simulation", "records that it made"] {
+        assert!(!after.contains(wrong), "{wrong}");
+    }
+    // Of a simulation it says that, and nothing of a publication that it is not held against.
+    let home = folder(made::whole);
+    let simulated = self::report(home.path()).html;
+    for said in [
+        "Ours, by simulation in the contact regime locomotion (friction 0.7, ",
+        "No robot took part.",
+        "Ours: simulation, one value per 20 ms.",
+    ] {
+        assert!(simulated.contains(said), "{said}");
+    }
+    for published in ["is the thesis", "published robot"] {
+        assert!(!simulated.contains(published), "{published}");
+    }
+}
+
+/// The conditions of a search are read from its plan, wherever that has them.
+#[test]
+fn a_search_says_its_robot_solver_seed_and_budget() {
+    let home = tempfile::tempdir().unwrap();
+    let robot = json!({
+        "name": "NAO H25 V4", "family": "nao", "version": "v4", "folder": "robots", "sha256": "0f",
+    });
+    let run = json!({
+        "program": "prone", "version": env!("CARGO_PKG_VERSION"), "commit": "c", "engine": "e",
+        "command": "optimize", "solver": "cma-es", "seed": 7, "runs": 1, "budget": 60,
+        "pricing": {
+            "aim": {
+                "objective": "torque", "weights": null, "per": "phase", "duration_s": 3.0,
+                "rate_deg_per_phase": null, "clearance": "none", "limits": "base",
+                "body_share_of": null, "body_share_percent": null, "regime": "torque-study",
+                "start": "settled",
+            },
+            "source": "statics", "from": "nominal", "mapping": "original", "arm": "fixed",
+            "robot": robot,
+        },
+        "form": "cubic", "ends": "free", "name": "found", "confirm_durations_s": [1.0],
+    });
+    let line = json!({"form": "polynomial", "coefficients_rad": [0.1]});
+    let result = json!({
+        "gait": "found", "curves": {"knee": line, "hip": line, "upper_arm": line}, "cost": null,
+        "torque": null, "violations": 0.5, "unit": "N²·m²·s", "seed": 7, "evaluations": 60,
+        "complete": true, "compared": [], "verdicts": [],
+    });
+    let points = ["toe", "ankle", "knee", "hip", "shoulder", "elbow"];
+    let points = points
+        .map(|point| format!(",{point}_x_mm,{point}_z_mm"))
+        .concat();
+    for (file, text) in [
+        ("run.json", run.to_string()),
+        ("result.json", result.to_string()),
+        (
+            "history.csv",
+            "seed,generation,best_violation,best_torque,mean_violation,mean_torque,\
+             mean_feasible_torque\n7,1,0.5,inf,0.6,,\n"
+                .to_owned(),
+        ),
+        (
+            "confirmation.csv",
+            "regime,gait,duration_s,ratio\n".to_owned(),
+        ),
+        (
+            "chains.csv",
+            format!("gait,s,theta3_deg,theta4_deg,alpha_deg{points}\n"),
+        ),
+    ] {
+        fs::write(home.path().join(file), text).unwrap();
+    }
+    let html = report(home.path()).html;
+    for said in [
+        "<dt>robot</dt><dd>NAO H25 V4</dd><dt>its family</dt><dd>nao</dd>",
+        "<dt>solver</dt><dd>cma-es</dd><dt>seed</dt><dd>7</dd><dt>budget, evaluations</dt><dd>60</dd>",
+        "Text without a source is about NAO H25 V4.",
+        "60 evaluations: no cost, violations 0.5000.",
+    ] {
+        assert!(html.contains(said), "{said}");
+    }
+}
+
+/// A publication whose results have records within them.
+struct Study;
+
+impl Publication for Study {
+    fn title(&self) -> &'static str {
+        "A study"
+    }
+
+    fn read(&self, folder: &Folder) -> Option<Result<Run, ReportError>> {
+        let own = folder.head.command == "reproduce";
+        own.then(|| Ok(Run::published(folder, Box::new(Self))))
+    }
+}
+
+impl PublishedRun for Study {
+    fn results(&self) -> Markup {
+        html! {}
+    }
+
+    fn tables_after(&self, _: &str) -> Markup {
+        html! {}
+    }
+
+    fn sections(&self) -> Markup {
+        html! {}
+    }
+}
+
+#[test]
+fn a_folder_is_taken_once_however_often_it_is_named() {
+    let home = tempfile::tempdir().unwrap();
+    let crawl = home.path().join("crawls/a");
+    fs::create_dir_all(&crawl).unwrap();
+    made::whole(&crawl);
+    let version = env!("CARGO_PKG_VERSION");
+    let run = format!(
+        r#"{{"program": "prone", "version": "{version}", "commit": "c", "command": "reproduce"}}"#
+    );
+    fs::write(home.path().join("run.json"), run).unwrap();
+    let source = |name: &str, folder: &Path| Source {
+        name: name.to_owned(),
+        folder: folder.to_owned(),
+    };
+    let folders = |sources: &[Source]| -> Vec<String> {
+        let report = Report::from_folders(sources, &Study).unwrap();
+        assert_eq!(report.numbers.cards.len(), 1);
+        let runs = report.numbers.runs.into_iter();
+        runs.map(|run| run.folder).collect()
+    };
+    let study = source("STUDY", home.path());
+    assert_eq!(
+        folders(std::slice::from_ref(&study)),
+        ["STUDY", "STUDY/crawls/a"]
+    );
+    // One that is named is called as it was named, wherever it stands among the names.
+    let again = home.path().join("crawls/../crawls/a");
+    let own = [source("A", &crawl), study, source("B", &again)];
+    assert_eq!(folders(&own), ["A", "STUDY"]);
+    let [a, study, b] = own;
+    assert_eq!(folders(&[study, b, a]), ["STUDY", "B"]);
+}
+
 #[test]
 fn a_whole_record_is_exported_with_its_robot() {
     let home = folder(made::whole);
@@ -95,7 +268,7 @@ fn a_whole_record_is_exported_with_its_robot() {
     let compiled = compiled_robot(home.path(), &info).unwrap();
     let robot = compiled.robot();
     let model = RecordedModel::read(home.path()).unwrap();
-    let text = urdf::of(robot, &model).unwrap();
+    let text = urdf::from_record(robot, &model).unwrap();
     assert_eq!(text.matches("<link ").count(), robot.bodies.len());
     assert_eq!(text.matches("type=\"revolute\"").count(), joints);
     // A capsule is three solids that are drawn and collide, an ellipsoid is drawn, a box collides.

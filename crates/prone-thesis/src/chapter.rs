@@ -2,13 +2,11 @@
 
 use std::sync::OnceLock;
 
-use serde::Deserialize;
-
 use prone_report::figures::GaitNumbers;
-use prone_report::report::{Folder, MadeBy, Part, Place, Publication, PublishedRun, ReportError};
+use prone_report::report::{Folder, Part, Publication, ReportError, Run};
 
 use crate::published;
-use crate::report::study::StudyRun;
+use crate::report::study;
 
 /// The command whose result folders are the study's own.
 const COMMAND: &str = "reproduce";
@@ -17,37 +15,30 @@ const COMMAND: &str = "reproduce";
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Thesis;
 
-/// What `chapter.json` says of a section.
-#[derive(Deserialize)]
-struct PartText {
-    title: String,
-    lead: String,
-    places: Vec<PlaceText>,
-}
-
-/// What it says of a figure.
-#[derive(Deserialize)]
-struct PlaceText {
-    number: String,
-    shows: String,
-    /// The command; null where it takes a robot.
-    made_by: Option<String>,
-    published: Option<String>,
-}
-
 impl Publication for Thesis {
     fn title(&self) -> &'static str {
         "The Projected Profile crawl: report"
     }
 
-    fn lead(&self) -> &'static str {
-        "Figures are numbered as in chapter 5 of the master's thesis that published this crawl (NYU \
-         Polytechnic, 2015)."
+    fn lead(&self) -> Option<&str> {
+        Some(
+            "Figures are numbered as in chapter 5 of the master's thesis that published this crawl \
+             (NYU Polytechnic, 2015).",
+        )
     }
 
+    fn name(&self) -> Option<&str> {
+        Some("the thesis")
+    }
+
+    fn crawled(&self) -> Option<&str> {
+        Some("The published robot made 67 mm a cycle with the original's gait.")
+    }
+
+    /// The sections; none where the text that ships does not parse, which a test excludes.
     fn parts(&self) -> &[Part] {
         static PARTS: OnceLock<Vec<Part>> = OnceLock::new();
-        PARTS.get_or_init(parts)
+        PARTS.get_or_init(|| serde_json::from_str(include_str!("chapter.json")).unwrap_or_default())
     }
 
     fn gaits(&self) -> &[GaitNumbers] {
@@ -58,30 +49,9 @@ impl Publication for Thesis {
         published::crawl_range(joint)
     }
 
-    fn read(&self, folder: &Folder) -> Option<Result<Box<dyn PublishedRun>, ReportError>> {
-        (folder.head.command == COMMAND).then(|| {
-            let run = StudyRun::read(folder)?;
-            Ok(Box::new(run) as Box<dyn PublishedRun>)
-        })
+    fn read(&self, folder: &Folder) -> Option<Result<Run, ReportError>> {
+        (folder.head.command == COMMAND).then(|| study::read(folder))
     }
-}
-
-/// The sections; none where the text that ships does not parse, which a test excludes.
-fn parts() -> Vec<Part> {
-    let text = include_str!("chapter.json");
-    let parts: Vec<PartText> = serde_json::from_str(text).unwrap_or_default();
-    let place = |place: PlaceText| Place {
-        number: place.number,
-        shows: place.shows,
-        made_by: place.made_by.map_or(MadeBy::Robot, MadeBy::Command),
-        published: place.published,
-    };
-    let part = |part: PartText| Part {
-        title: part.title,
-        lead: part.lead,
-        places: part.places.into_iter().map(place).collect(),
-    };
-    parts.into_iter().map(part).collect()
 }
 
 #[cfg(test)]

@@ -61,27 +61,26 @@ impl Numbers {
                 format!("{:.0}", options.control_step_s * 1e3),
             ),
         ]);
+        let mut known = Vec::new();
         if let Some(robot) = robot {
-            numbers.extend([
-                ("mass_kg", format!("{:.3}", robot.mass_kg)),
-                ("lowest_centre_mm", format!("{:.0}", robot.lowest_centre_mm)),
-                ("sunk_mm", format!("{:.0}", robot.sunk_mm)),
-                ("ankle_deg", format!("{:.1}", robot.ankle_deg)),
-                ("roll_deg", format!("{:.2}", robot.roll_deg)),
-                (
-                    "ankle_tighter_deg",
-                    format!("{:.2}", robot.ankle_tighter_deg),
-                ),
+            known.extend([
+                ("mass_kg", robot.mass_kg, 3),
+                ("lowest_centre_mm", robot.lowest_centre_mm, 0),
+                ("sunk_mm", robot.sunk_mm, 0),
+                ("ankle_deg", robot.own.ankle_deg, 1),
+                ("roll_deg", robot.own.roll_deg, 2),
+                ("ankle_tighter_deg", robot.ankle_tighter_deg, 2),
             ]);
-            if let Some(published) = robot.published {
-                let nearer = published.trunk_mm - robot.trunk_mm;
-                numbers.extend([
-                    ("published_ankle_deg", format!("{:.0}", published.ankle_deg)),
-                    ("published_roll_deg", format!("{:.0}", published.roll_deg)),
-                    ("nearer_mm", format!("{nearer:.1}")),
-                ]);
-            }
         }
+        if let Some((robot, published)) = robot.and_then(|robot| Some((robot, robot.published?))) {
+            known.extend([
+                ("published_ankle_deg", published.ankle_deg, 0),
+                ("published_roll_deg", published.roll_deg, 0),
+                ("nearer_mm", published.trunk_mm - robot.own.trunk_mm, 1),
+            ]);
+        }
+        let known = known.into_iter();
+        numbers.extend(known.map(|(name, value, decimals)| (name, format!("{value:.decimals$}"))));
         Self(numbers)
     }
 

@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use prone_report::figures::{GaitNumbers, TorqueNumbers};
+use prone_report::figures::GaitNumbers;
 
 /// Values behind Figure 45: ∫ Σ τ² dt of one side at 1, 2, … 10 s, N²·m²·s.
 const NOMINAL_COSTS: [f64; 10] = [
@@ -29,24 +29,20 @@ pub const FIGURES: [GaitNumbers; 2] = [
         gait: NOMINAL,
         chain: "26",
         frames: "27",
-        torque: TorqueNumbers {
-            by_duration: "36",
-            time: "38",
-            transient: "40",
-            cycle: "42",
-        },
+        torque_by_duration: "36",
+        torque_over_time: "38",
+        transient: "40",
+        torque_over_cycle: "42",
         published_divergence_s: 0.25,
     },
     GaitNumbers {
         gait: OPTIMAL,
         chain: "34",
         frames: "35",
-        torque: TorqueNumbers {
-            by_duration: "37",
-            time: "39",
-            transient: "41",
-            cycle: "43",
-        },
+        torque_by_duration: "37",
+        torque_over_time: "39",
+        transient: "41",
+        torque_over_cycle: "43",
         published_divergence_s: 0.175,
     },
 ];
@@ -70,9 +66,6 @@ pub const OPTIMAL_COEFFICIENTS: [[f64; 4]; 3] = [
     [1.8796, -0.1365, -1.7434, 0.47997],
     [-0.2134, 1.1570, -1.9898, 0.52360],
 ];
-
-/// Advance of the real robot per crawl cycle in [`TABLE_CRAWLS`], mm.
-pub const ROBOT_ADVANCE_MM: [f64; 2] = [610.0 / 9.0, 1676.4 / 25.0];
 
 /// The height at which Figure 26 shows the ankle's highest point, mm, as its text words it.
 pub const ANKLE_PEAK_MM: &str = "about 100";
@@ -104,6 +97,13 @@ pub struct TableCrawl {
     pub distance_mm: f64,
     /// In which time, s.
     pub time_s: f64,
+}
+
+impl TableCrawl {
+    /// How far it came per cycle, mm.
+    pub const fn mm_per_cycle(&self) -> f64 {
+        self.distance_mm / self.cycles as f64
+    }
 }
 
 /// The two experiments of the real robot.

@@ -337,7 +337,7 @@ impl Study<'_> {
         }
         list.finish(&mut artefacts)?;
         // The drawings are those of the report, made from the records as they will be read again.
-        let report = Report::of_artefacts(OWN_NAME, &artefacts, &Thesis)?;
+        let report = Report::from_artefacts(OWN_NAME, &artefacts, &Thesis)?;
         artefacts.extend(report.figures()?);
         artefacts.insert(PAGE_FILE.into(), report.html.into_bytes());
         let crawling = table_result.map_or(0, |result| result.engine_steps);

@@ -6,7 +6,7 @@ use prone::gait::{Gait, PhaseDuration, TrajectoryError};
 use prone::mapping::MappingError;
 use prone::robot::Robot;
 use prone_study::gait_sheet;
-use prone_study::robot_sheet;
+use prone_study::robot_sheet::{self, ChainSheet};
 
 /// Geometry and mass of a robot, as far as the report speaks of them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -17,24 +17,21 @@ pub struct RobotNumbers {
     pub lowest_centre_mm: f64,
     /// How far trunk and legs would then reach into the floor, mm.
     pub sunk_mm: f64,
-    /// Ankle joint angle minus θ2 by the robot's geometry, degrees.
-    pub ankle_deg: f64,
-    /// Outward shoulder roll for the projected upper arm, degrees.
-    pub roll_deg: f64,
-    /// Hip to shoulder, mm.
-    pub trunk_mm: f64,
-    /// The same three as published, where they are.
-    pub published: Option<PublishedGeometry>,
+    /// By the robot's own geometry.
+    #[serde(flatten)]
+    pub own: Geometry,
+    /// As published, where it is.
+    pub published: Option<Geometry>,
     /// By how much the right ankle's lower limit is tighter than the left's, degrees.
     pub ankle_tighter_deg: f64,
 }
 
-/// Geometry as published.
+/// What a mapping takes for the geometry of a robot.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct PublishedGeometry {
+pub struct Geometry {
     /// Ankle joint angle minus θ2, degrees.
     pub ankle_deg: f64,
-    /// Outward shoulder roll, degrees.
+    /// Outward shoulder roll for the projected upper arm, degrees.
     pub roll_deg: f64,
     /// Hip to shoulder, mm.
     pub trunk_mm: f64,
@@ -78,15 +75,19 @@ impl RobotNumbers {
             mass_kg: sheet.mass_kg,
             lowest_centre_mm,
             sunk_mm: -bottom_mm,
-            ankle_deg: sheet.derived.ankle_offset_deg,
-            roll_deg: sheet.derived.shoulder_roll_deg,
-            trunk_mm: sheet.derived.links_mm[TRUNK],
-            published: sheet.published.map(|published| PublishedGeometry {
-                ankle_deg: published.ankle_offset_deg,
-                roll_deg: published.shoulder_roll_deg,
-                trunk_mm: published.links_mm[TRUNK],
-            }),
+            own: Geometry::from_sheet(&sheet.derived),
+            published: sheet.published.as_ref().map(Geometry::from_sheet),
             ankle_tighter_deg: (right - left).to_degrees(),
         })
+    }
+}
+
+impl Geometry {
+    fn from_sheet(sheet: &ChainSheet) -> Self {
+        Self {
+            ankle_deg: sheet.ankle_offset_deg,
+            roll_deg: sheet.shoulder_roll_deg,
+            trunk_mm: sheet.links_mm[TRUNK],
+        }
     }
 }

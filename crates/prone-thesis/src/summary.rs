@@ -5,12 +5,12 @@ use std::borrow::Cow;
 use serde::{Deserialize, Serialize};
 
 use crate::agreement::Agreement;
-use crate::published;
+use crate::published::{self, TABLE_CRAWLS};
 use crate::robot_numbers::RobotNumbers;
 use crate::table_crawl::TableExperiment;
 use crate::torque_study::TorqueStudy;
 use prone_record::contact_story::ContactStory;
-use prone_record::pulls::{ChainRecord, ClampRecord, CostRecord, RunRecord};
+use prone_record::pulls::{ChainRecord, ChainSample, ClampRecord, CostRecord, RunRecord};
 
 /// Everything that the report's tables show.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -113,7 +113,7 @@ pub fn of(
         agreement,
         stride: Stride {
             chain_mm: study.chains.iter().map(stride).collect(),
-            published_robot_mm_per_cycle: published::ROBOT_ADVANCE_MM,
+            published_robot_mm_per_cycle: TABLE_CRAWLS.map(|crawl| crawl.mm_per_cycle()),
         },
         ankle_peak: study.chains.iter().filter_map(ankle_peak).collect(),
         runs: study.runs.clone(),
@@ -137,32 +137,32 @@ fn cost_row(cost: &CostRecord) -> CostRow {
     }
 }
 
-fn ratios(costs: &[CostRecord]) -> Vec<RatioRow> {
-    let of = |gait: &str, duration: f64| {
-        costs
-            .iter()
-            .find(|cost| cost.gait == gait && (cost.duration_s - duration).abs() < 1e-9)
-    };
-    let nominal = costs.iter().filter(|cost| cost.gait == published::NOMINAL);
-    nominal
-        .filter_map(|nominal| {
-            let optimal = of(published::OPTIMAL, nominal.duration_s)?;
-            let published = optimal.published_n2m2s.zip(nominal.published_n2m2s);
-            Some(RatioRow {
-                duration_s: nominal.duration_s,
-                ours: optimal.cost_n2m2s / nominal.cost_n2m2s,
-                published: published.map(|(optimal, nominal)| optimal / nominal),
-            })
-        })
-        .collect()
+/// The cost of a gait at a duration.
+fn cost<'a>(costs: &'a [CostRecord], gait: &str, duration_s: f64) -> Option<&'a CostRecord> {
+    let mut costs = costs.iter();
+    costs.find(|cost| cost.gait == gait && (cost.duration_s - duration_s).abs() < 1e-9)
 }
 
-/// Points of a [`prone_record::pulls::ChainSample`]: toe, ankle, knee, hip, shoulder, elbow.
+fn ratios(costs: &[CostRecord]) -> Vec<RatioRow> {
+    let nominal = costs.iter().filter(|cost| cost.gait == published::NOMINAL);
+    let ratios = nominal.filter_map(|nominal| {
+        let optimal = cost(costs, published::OPTIMAL, nominal.duration_s)?;
+        let published = optimal.published_n2m2s.zip(nominal.published_n2m2s);
+        Some(RatioRow {
+            duration_s: nominal.duration_s,
+            ours: optimal.cost_n2m2s / nominal.cost_n2m2s,
+            published: published.map(|(optimal, nominal)| optimal / nominal),
+        })
+    });
+    ratios.collect()
+}
+
+/// Points of a [`ChainSample`]: toe, ankle, knee, hip, shoulder, elbow.
 const ANKLE: usize = 1;
 const SHOULDER: usize = 4;
 
 fn stride(chain: &ChainRecord) -> (String, f64) {
-    let x = |sample: Option<&prone_record::pulls::ChainSample>| {
+    let x = |sample: Option<&ChainSample>| {
         sample.map_or(f64::NAN, |sample| sample.points_mm[SHOULDER].0)
     };
     let advance = x(chain.samples.last()) - x(chain.samples.first());
@@ -170,11 +170,9 @@ fn stride(chain: &ChainRecord) -> (String, f64) {
 }
 
 fn ankle_peak(chain: &ChainRecord) -> Option<AnklePeak> {
-    let height = |sample: &&prone_record::pulls::ChainSample| sample.points_mm[ANKLE].1;
-    let peak = chain
-        .samples
-        .iter()
-        .max_by(|a, b| height(a).total_cmp(&height(b)))?;
+    let height = |sample: &&ChainSample| sample.points_mm[ANKLE].1;
+    let samples = chain.samples.iter();
+    let peak = samples.max_by(|a, b| height(a).total_cmp(&height(b)))?;
     Some(AnklePeak {
         gait: chain.gait.clone(),
         height_mm: height(&peak),
@@ -185,9 +183,7 @@ fn ankle_peak(chain: &ChainRecord) -> Option<AnklePeak> {
 
 fn mappings(study: &TorqueStudy) -> Vec<MappingRow> {
     let rows = study.exact_costs.iter().filter_map(|exact| {
-        let own = study.costs.iter().find(|cost| {
-            cost.gait == exact.gait && (cost.duration_s - exact.duration_s).abs() < 1e-9
-        })?;
+        let own = cost(&study.costs, &exact.gait, exact.duration_s)?;
         Some(MappingRow {
             gait: exact.gait.clone(),
             duration_s: exact.duration_s,

@@ -23,7 +23,7 @@ pub use plan::{Plan, PlanError};
 pub const PICTURES: usize = 5;
 
 /// What came out.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct TorqueStudy {
     /// Every gait at every duration.
     pub pulls: Vec<PullRecord>,
@@ -54,7 +54,7 @@ pub enum StudyError {
     /// A gait has no trajectory.
     #[error(transparent)]
     Trajectory(#[from] TrajectoryError),
-    /// A record cannot be priced.
+    /// The cost of a record cannot be computed.
     #[error("gait {gait} at {duration_s} s: {source}")]
     Cost {
         /// The gait's name.
@@ -110,22 +110,14 @@ pub fn run(world: &World, plan: &Plan, watch: &dyn Watch) -> Result<TorqueStudy,
         .collect();
 
     let mut study = TorqueStudy {
-        pulls: Vec::new(),
-        runs: Vec::new(),
-        chains: Vec::new(),
-        clamps: Vec::new(),
-        costs: Vec::new(),
-        exact_costs: Vec::new(),
-        shown: Vec::new(),
         showcase_s: showcase.seconds(),
-        engine_steps: 0,
+        ..TorqueStudy::default()
     };
     for gait in &plan.gaits {
         let trajectory = plan_chain(world, gait, showcase)?;
         study.chains.push(chain_record(gait, &trajectory));
-        study
-            .clamps
-            .extend(clamp_records(world.robot(), gait, &trajectory));
+        let clamps = clamp_records(world.robot(), gait, &trajectory);
+        study.clamps.extend(clamps);
     }
     for (job, result) in jobs.iter().zip(results) {
         let pull = result?;
@@ -147,29 +139,24 @@ pub fn run(world: &World, plan: &Plan, watch: &dyn Watch) -> Result<TorqueStudy,
 }
 
 fn jobs(plan: &Plan) -> Vec<Job> {
-    let mut jobs = Vec::new();
-    for gait in &plan.gaits {
-        for &duration in &plan.durations {
-            jobs.push(Job {
-                gait: gait.clone(),
-                duration,
-                proper: true,
-                showcase: duration == plan.showcase,
-            });
-        }
-    }
-    for gait in &plan.gaits {
-        jobs.push(Job {
-            gait: Gait {
-                mapping: MappingVariant::Exact,
-                ..gait.clone()
-            },
-            duration: plan.showcase,
-            proper: false,
-            showcase: false,
-        });
-    }
-    jobs
+    let proper = plan.gaits.iter().flat_map(|gait| {
+        plan.durations.iter().map(|&duration| Job {
+            gait: gait.clone(),
+            duration,
+            proper: true,
+            showcase: duration == plan.showcase,
+        })
+    });
+    let exact = plan.gaits.iter().map(|gait| Job {
+        gait: Gait {
+            mapping: MappingVariant::Exact,
+            ..gait.clone()
+        },
+        duration: plan.showcase,
+        proper: false,
+        showcase: false,
+    });
+    proper.chain(exact).collect()
 }
 
 fn clamp_records<'a>(
@@ -189,10 +176,8 @@ fn clamp_records<'a>(
 }
 
 fn run_record(job: &Job, pull: &Pull) -> RunRecord {
-    let end = pull
-        .rows
-        .last()
-        .map_or(pull.start, |row| row.ground_from_root);
+    let last = pull.rows.last();
+    let end = last.map_or(pull.start, |row| row.ground_from_root);
     let travel = end.origin().metres() - pull.start.origin().metres();
     let tops = |top: fn(&prone_sim::pull::Row) -> f64| {
         pull.rows.iter().map(top).fold(f64::NEG_INFINITY, f64::max) * 1e3
@@ -208,11 +193,8 @@ fn run_record(job: &Job, pull: &Pull) -> RunRecord {
 }
 
 fn cost_record(pull: &PullRecord) -> Result<CostRecord, StudyError> {
-    let (times, torques): (Vec<_>, Vec<_>) = pull
-        .rows
-        .iter()
-        .map(|row| (row.time_s, row.torque_nm))
-        .unzip();
+    let rows = pull.rows.iter();
+    let (times, torques): (Vec<_>, Vec<_>) = rows.map(|row| (row.time_s, row.torque_nm)).unzip();
     let cost = squared_torque_integral(&times, &torques).map_err(|source| StudyError::Cost {
         gait: pull.gait.clone(),
         duration_s: pull.duration_s,

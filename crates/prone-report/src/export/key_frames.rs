@@ -46,8 +46,11 @@ pub fn from_cycle(checked: &CheckedCycle, tick_s: f64) -> Result<KeyFrames, Cycl
         pull_s: checked.pull().duration().seconds(),
         tick_s,
     };
-    let mut labels = vec![(0, "extension".to_owned())];
-    labels.push((course.tick(course.pull_s), "compression".to_owned()));
+    let compression = course.tick(course.pull_s);
+    let mut labels = vec![
+        (0, "extension".to_owned()),
+        (compression, "compression".to_owned()),
+    ];
     for (name, end) in checked.recovery_ends() {
         labels.push((course.tick(course.pull_s + end), name.to_owned()));
     }
@@ -58,19 +61,18 @@ pub fn from_cycle(checked: &CheckedCycle, tick_s: f64) -> Result<KeyFrames, Cycl
     ticks.sort_unstable();
     ticks.dedup();
     let last = course.tick(course.pull_s + checked.recovery_seconds());
-    let frames = ticks.into_iter().map(|tick| {
+    let frames = ticks.into_iter().map(|tick| KeyFrame {
+        tick,
+        label: labels
+            .iter()
+            .find(|(labelled, _)| *labelled == tick)
+            .map(|(_, name)| name.clone()),
         // A cycle closes, wherever its end falls between two ticks.
-        let angles = if tick == last {
+        angles: if tick == last {
             checked.extension().clone()
         } else {
             course.at(tick)
-        };
-        let label = labels.iter().find(|(labelled, _)| *labelled == tick);
-        KeyFrame {
-            tick,
-            label: label.map(|(_, name)| name.clone()),
-            angles,
-        }
+        },
     });
     Ok(KeyFrames {
         tick_s,
@@ -88,6 +90,17 @@ pub fn json(
     key_frames: &KeyFrames,
 ) -> Result<Vec<u8>, serde_json::Error> {
     let time_s = |tick: usize| (tick as f64 * key_frames.tick_s * 1e6).round() / 1e6;
+    let frames = key_frames.frames.iter().map(|frame| {
+        let angles = frame.angles.as_slice().iter();
+        // To the microradian, as in records; 0 without a sign.
+        let angles = angles.map(|angle| (angle * 1e6).round() / 1e6 + 0.0);
+        Entry {
+            time_s: time_s(frame.tick),
+            label: frame.label.as_deref(),
+            angles_rad: angles.collect(),
+        }
+    });
+    let joints = robot.joints.iter();
     let file = File {
         robot: &robot.name,
         gait: checked.name(),
@@ -95,25 +108,8 @@ pub fn json(
         pull_s: checked.pull().duration().seconds(),
         interpolation: "linear",
         tolerance_rad: TOLERANCE,
-        joints: robot
-            .joints
-            .iter()
-            .map(|joint| joint.name.as_str())
-            .collect(),
-        frames: key_frames
-            .frames
-            .iter()
-            .map(|frame| Entry {
-                time_s: time_s(frame.tick),
-                label: frame.label.as_deref(),
-                angles_rad: frame
-                    .angles
-                    .as_slice()
-                    .iter()
-                    .map(|angle| rounded(*angle))
-                    .collect(),
-            })
-            .collect(),
+        joints: joints.map(|joint| joint.name.as_str()).collect(),
+        frames: frames.collect(),
     };
     output::json(&file)
 }
@@ -135,11 +131,6 @@ struct Entry<'a> {
     time_s: f64,
     label: Option<&'a str>,
     angles_rad: Vec<f64>,
-}
-
-/// To the microradian, as in records; 0 without a sign.
-fn rounded(angle: f64) -> f64 {
-    (angle * 1e6).round() / 1e6 + 0.0
 }
 
 /// What is commanded over a cycle.
@@ -174,11 +165,9 @@ impl Course<'_> {
         let (first, last) = (self.at(from), self.at(to));
         let off = |tick: usize| {
             let share = (tick - from) as f64 / (to - from) as f64;
-            let line = first.towards(&last, share);
-            let now = self.at(tick);
-            line.pairs(&now)
-                .map(|(line, now)| (line - now).abs())
-                .fold(0.0, f64::max)
+            let (line, now) = (first.towards(&last, share), self.at(tick));
+            let apart = line.pairs(&now).map(|(line, now)| (line - now).abs());
+            apart.fold(0.0, f64::max)
         };
         let farthest = (from + 1..to)
             .map(|tick| (off(tick), tick))

@@ -14,16 +14,10 @@ use prone_record::recorded::{Recorded, RecordedRow};
 /// An array's data begins at a multiple of this, so that it can be mapped into memory.
 const ALIGNMENT: usize = 64;
 
-/// Why there is no archive.
+/// Why there is no archive: an entry is refused, or cannot be written.
 #[derive(Debug, thiserror::Error)]
-pub enum ArchiveError {
-    /// The archive refuses an entry.
-    #[error("NumPy archive: {0}")]
-    Zip(#[from] rawzip::Error),
-    /// It cannot be written.
-    #[error("NumPy archive: {0}")]
-    Write(#[from] std::io::Error),
-}
+#[error("NumPy archive: {0}")]
+pub struct ArchiveError(#[from] rawzip::Error);
 
 /// Makes the archive. Arrays over instants begin with their axis; a number that was not recorded is
 /// NaN.
@@ -38,82 +32,49 @@ pub fn archive(record: &Recorded) -> Result<Vec<u8>, ArchiveError> {
         numbers(&[rows.len(), joints], values)
     };
     let speeds = record.joint_speeds().into_iter().flatten();
+    let times = rows.iter().map(|row| row.time_s);
+    let cycles = rows.iter().map(|row| row.cycle as f64);
+    let ground = rows.iter().flat_map(|row| row.ground_n);
     // What was not recorded is NaN.
-    let position = |row: &RecordedRow| match &row.ground_from_root {
+    let positions = rows.iter().flat_map(|row| match &row.ground_from_root {
         Some(root) => root.origin().metres().to_array(),
         None => [f64::NAN; 3],
-    };
-    let turn = |row: &RecordedRow| match row.ground_from_root.map(|root| root.rotation()) {
+    });
+    let turns = rows.iter().map(|row| row.ground_from_root);
+    let turns = turns.flat_map(|root| match root.map(|root| root.rotation()) {
         Some(q) => [q.w, q.x, q.y, q.z],
         None => [f64::NAN; 4],
-    };
+    });
+    let contact_times = contacts.iter().map(|contact| contact.time_s);
+    let bodies = contacts.iter().map(|contact| &record.bodies[contact.body]);
+    let places = contacts.iter().map(|contact| contact.at.metres());
+    let forces = contacts.iter().map(|contact| contact.force_n);
+    let places = places.flat_map(|place| place.to_array());
+    let forces = forces.flat_map(|force| force.to_array());
+    let (instants, touches) = (rows.len(), contacts.len());
     let arrays = [
-        (
-            "time_s",
-            numbers(&[rows.len()], rows.iter().map(|row| row.time_s)),
-        ),
-        (
-            "cycle",
-            numbers(&[rows.len()], rows.iter().map(|row| row.cycle as f64)),
-        ),
+        ("time_s", numbers(&[instants], times)),
+        ("cycle", numbers(&[instants], cycles)),
         ("joints", texts(record.joints.iter().map(String::as_str))),
         ("command_rad", per_joint(&|row| row.command.as_slice())),
         ("position_rad", per_joint(&|row| row.angles.as_slice())),
-        ("velocity_rad_s", numbers(&[rows.len(), joints], speeds)),
+        ("velocity_rad_s", numbers(&[instants, joints], speeds)),
         ("effort_nm", per_joint(&|row| &row.actuator_torque_nm)),
-        (
-            "root_position_m",
-            numbers(&[rows.len(), 3], rows.iter().flat_map(position)),
-        ),
-        (
-            "root_quaternion_wxyz",
-            numbers(&[rows.len(), 4], rows.iter().flat_map(turn)),
-        ),
+        ("root_position_m", numbers(&[instants, 3], positions)),
+        ("root_quaternion_wxyz", numbers(&[instants, 4], turns)),
         (
             "ground_groups",
             texts(ContactGroup::ALL.iter().map(|group| group.name())),
         ),
-        (
-            "ground_n",
-            numbers(&[rows.len(), 4], rows.iter().flat_map(|row| row.ground_n)),
-        ),
-        (
-            "contact_time_s",
-            numbers(
-                &[contacts.len()],
-                contacts.iter().map(|contact| contact.time_s),
-            ),
-        ),
-        (
-            "contact_body",
-            texts(
-                contacts
-                    .iter()
-                    .map(|contact| record.bodies[contact.body].name.as_str()),
-            ),
-        ),
+        ("ground_n", numbers(&[instants, 4], ground)),
+        ("contact_time_s", numbers(&[touches], contact_times)),
+        ("contact_body", texts(bodies.map(|body| body.name.as_str()))),
         (
             "contact_with",
             texts(contacts.iter().map(|contact| contact.with.as_str())),
         ),
-        (
-            "contact_position_m",
-            numbers(
-                &[contacts.len(), 3],
-                contacts
-                    .iter()
-                    .flat_map(|contact| contact.at.metres().to_array()),
-            ),
-        ),
-        (
-            "contact_force_n",
-            numbers(
-                &[contacts.len(), 3],
-                contacts
-                    .iter()
-                    .flat_map(|contact| contact.force_n.to_array()),
-            ),
-        ),
+        ("contact_position_m", numbers(&[touches, 3], places)),
+        ("contact_force_n", numbers(&[touches, 3], forces)),
     ];
     let mut archive = ZipArchiveWriter::new(Vec::new());
     for (name, array) in arrays {
@@ -123,7 +84,7 @@ pub fn archive(record: &Recorded) -> Result<Vec<u8>, ArchiveError> {
             .compression_method(CompressionMethod::STORE);
         let (mut entry, config) = file.start()?;
         let mut writer = config.wrap(&mut entry);
-        writer.write_all(&array)?;
+        writer.write_all(&array).map_err(rawzip::Error::from)?;
         let (_, descriptor) = writer.finish()?;
         entry.finish(descriptor)?;
     }

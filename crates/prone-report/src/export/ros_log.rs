@@ -78,8 +78,7 @@ pub fn log(record: &Recorded) -> Result<Vec<u8>, McapError> {
     let joint_state = log.schema("sensor_msgs/msg/JointState", &[JOINT_STATE, HEADER, TIME])?;
     let wrench = [WRENCH_STAMPED, HEADER, TIME, WRENCH, VECTOR];
     let wrench = log.schema("geometry_msgs/msg/WrenchStamped", &wrench)?;
-    let tf = [
-        TF_MESSAGE,
+    let transform = [
         TRANSFORM_STAMPED,
         HEADER,
         TIME,
@@ -87,16 +86,16 @@ pub fn log(record: &Recorded) -> Result<Vec<u8>, McapError> {
         VECTOR,
         QUATERNION,
     ];
+    let tf = [&[TF_MESSAGE][..], &transform].concat();
     let tf = log.schema("tf2_msgs/msg/TFMessage", &tf)?;
     let states = log.channel(joint_state, "/joint_states")?;
-    let known = Known::of(record);
-    let commands = known
-        .commands
-        .then(|| log.channel(joint_state, "/joint_commands"))
-        .transpose()?;
-    let poses = has_poses(record)
-        .then(|| log.channel(tf, "/tf"))
-        .transpose()?;
+    let angles = known(record, |row| row.angles.as_slice());
+    let torques = known(record, |row| &row.actuator_torque_nm);
+    let commands = known(record, |row| row.command.as_slice());
+    let commands = commands.map(|_| log.channel(joint_state, "/joint_commands"));
+    let commands = commands.transpose()?;
+    let poses = has_poses(record).then(|| log.channel(tf, "/tf"));
+    let poses = poses.transpose()?;
     let mut pairs: BTreeMap<Pair<'_>, u16> = BTreeMap::new();
     for contact in &record.contacts {
         let pair = (contact.body, contact.with.as_str());
@@ -108,11 +107,11 @@ pub fn log(record: &Recorded) -> Result<Vec<u8>, McapError> {
     let mut contacts = record.contacts.as_slice();
     let mut counts = record.contact_counts.iter();
     for (row, speeds) in record.rows.iter().zip(&speeds) {
-        let stamp = Stamp::of(row.time_s);
+        let stamp = Stamp::from_seconds(row.time_s);
         let state = [
-            shown(known.angles, row.angles.as_slice()),
-            shown(known.angles, speeds),
-            shown(known.torques, &row.actuator_torque_nm),
+            angles.map_or(&[][..], |angles| angles(row)),
+            angles.map_or(&[][..], |_| speeds),
+            torques.map_or(&[][..], |torques| torques(row)),
         ];
         log.write(states, stamp, &joints(record, stamp, state))?;
         if let Some(commands) = commands {
@@ -156,26 +155,13 @@ pub fn log(record: &Recorded) -> Result<Vec<u8>, McapError> {
     Ok(log.writer.into_inner().into_inner())
 }
 
-/// Which numbers of joints a record has, at any instant and of any joint.
-struct Known {
-    commands: bool,
-    angles: bool,
-    torques: bool,
-}
+/// Numbers of the joints of a row.
+type Numbers = fn(&RecordedRow) -> &[f64];
 
-impl Known {
-    fn of(record: &Recorded) -> Self {
-        let rows = &record.rows;
-        let any = |values: fn(&RecordedRow) -> &[f64]| {
-            let mut values = rows.iter().flat_map(values);
-            values.any(|value| !value.is_nan())
-        };
-        Self {
-            commands: any(|row| row.command.as_slice()),
-            angles: any(|row| row.angles.as_slice()),
-            torques: any(|row| &row.actuator_torque_nm),
-        }
-    }
+/// The numbers of each row, or none where there are none at any instant and of any joint.
+fn known(record: &Recorded, numbers: Numbers) -> Option<Numbers> {
+    let mut all = record.rows.iter().flat_map(numbers);
+    all.any(|value| !value.is_nan()).then_some(numbers)
 }
 
 /// Whether the pose of any body is known at any instant.
@@ -185,30 +171,11 @@ fn has_poses(record: &Recorded) -> bool {
     poses.any(|pose| pose.is_some())
 }
 
-/// The numbers, or none where they were never recorded.
-const fn shown(known: bool, values: &[f64]) -> &[f64] {
-    if known { values } else { &[] }
-}
-
 /// Letters, digits and underscores between slashes, as ROS wants it.
 fn contact_topic(record: &Recorded, (body, with): Pair<'_>) -> String {
-    let token = |name: &str| -> String {
-        let letters = name.chars();
-        letters
-            .map(|letter| {
-                if letter.is_ascii_alphanumeric() {
-                    letter
-                } else {
-                    '_'
-                }
-            })
-            .collect()
-    };
-    format!(
-        "/contacts/{}/{}",
-        token(&record.bodies[body].name),
-        token(with)
-    )
+    let token = |name: &str| name.replace(|letter: char| !letter.is_ascii_alphanumeric(), "_");
+    let body = token(&record.bodies[body].name);
+    format!("/contacts/{body}/{}", token(with))
 }
 
 /// A `JointState`; position, velocity and effort, of which any may be empty.
@@ -230,10 +197,9 @@ fn joints(record: &Recorded, stamp: Stamp, values: [&[f64]; 3]) -> Vec<u8> {
 fn transforms(record: &Recorded, row: &RecordedRow, stamp: Stamp) -> Vec<u8> {
     let mut message = Cdr::new();
     let poses = record.parent_from_bodies(row);
-    let known = record.bodies.iter().zip(poses);
-    let known: Vec<_> = known
-        .filter_map(|(body, pose)| Some((body, pose?)))
-        .collect();
+    let poses = record.bodies.iter().zip(poses);
+    let poses = poses.filter_map(|(body, pose)| Some((body, pose?)));
+    let known: Vec<_> = poses.collect();
     message.count(known.len());
     for (body, pose) in known {
         let parent = body
@@ -248,37 +214,32 @@ fn transforms(record: &Recorded, row: &RecordedRow, stamp: Stamp) -> Vec<u8> {
 }
 
 fn header(message: &mut Cdr, stamp: Stamp, frame: &str) {
-    message.unsigned(stamp.seconds);
-    message.unsigned(stamp.nanoseconds);
+    let (seconds, nanoseconds) = stamp.parts();
+    message.unsigned(seconds);
+    message.unsigned(nanoseconds);
     message.text(frame);
 }
 
-/// A time of ROS.
+/// A time of ROS, nanoseconds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Stamp {
-    seconds: u32,
-    nanoseconds: u32,
-}
+struct Stamp(u64);
 
 impl Stamp {
-    const PER_SECOND: u64 = 1_000_000_000;
-
     /// To the microsecond: records have four decimals.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "a crawl lasts minutes, and its time is not negative"
+        reason = "a time of a crawl is not negative"
     )]
-    fn of(time_s: f64) -> Self {
-        let nanoseconds = (time_s * 1e6).round() as u64 * 1000;
-        Self {
-            seconds: (nanoseconds / Self::PER_SECOND) as u32,
-            nanoseconds: (nanoseconds % Self::PER_SECOND) as u32,
-        }
+    fn from_seconds(time_s: f64) -> Self {
+        Self((time_s * 1e6).round() as u64 * 1000)
     }
 
-    fn total_nanoseconds(self) -> u64 {
-        u64::from(self.seconds) * Self::PER_SECOND + u64::from(self.nanoseconds)
+    /// Seconds, and the nanoseconds beyond them.
+    #[expect(clippy::cast_possible_truncation, reason = "a crawl lasts minutes")]
+    const fn parts(self) -> (u32, u32) {
+        const PER_SECOND: u64 = 1_000_000_000;
+        ((self.0 / PER_SECOND) as u32, (self.0 % PER_SECOND) as u32)
     }
 }
 
@@ -322,11 +283,12 @@ impl Log {
     fn write(&mut self, channel: u16, stamp: Stamp, message: &[u8]) -> Result<(), McapError> {
         let sequence = self.sequences.entry(channel).or_default();
         *sequence += 1;
+        let Stamp(nanoseconds) = stamp;
         let header = MessageHeader {
             channel_id: channel,
             sequence: *sequence,
-            log_time: stamp.total_nanoseconds(),
-            publish_time: stamp.total_nanoseconds(),
+            log_time: nanoseconds,
+            publish_time: nanoseconds,
         };
         self.writer.write_to_known_channel(&header, message)
     }
@@ -338,8 +300,8 @@ mod tests {
 
     #[test]
     fn times_are_exact() {
-        let stamp = Stamp::of(50.84);
-        assert_eq!((stamp.seconds, stamp.nanoseconds), (50, 840_000_000));
-        assert_eq!(stamp.total_nanoseconds(), 50_840_000_000);
+        let stamp = Stamp::from_seconds(50.84);
+        assert_eq!(stamp.parts(), (50, 840_000_000));
+        assert_eq!(stamp, Stamp(50_840_000_000));
     }
 }

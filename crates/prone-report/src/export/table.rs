@@ -3,16 +3,6 @@
 use prone_record::recorded::Recorded;
 use prone_record::tables::{finish, number};
 
-/// The names of the columns.
-const COLUMNS: [&str; 6] = [
-    "time_s",
-    "joint",
-    "command_rad",
-    "position_rad",
-    "velocity_rad_s",
-    "effort_nm",
-];
-
 /// Makes the table: instants in their order, in each the joints in the robot's order;
 /// the cell of what was not recorded is empty.
 ///
@@ -20,7 +10,8 @@ const COLUMNS: [&str; 6] = [
 /// [`csv::Error`], which writing to memory does not produce.
 pub fn csv(record: &Recorded) -> Result<Vec<u8>, csv::Error> {
     let mut table = csv::Writer::from_writer(Vec::new());
-    table.write_record(COLUMNS)?;
+    let columns = "time_s,joint,command_rad,position_rad,velocity_rad_s,effort_nm";
+    table.write_record(columns.split(','))?;
     for (row, speeds) in record.rows.iter().zip(record.joint_speeds()) {
         let time = number(row.time_s, 4);
         for (index, joint) in record.joints.iter().enumerate() {

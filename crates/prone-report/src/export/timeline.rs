@@ -30,24 +30,17 @@ const PORTS: &str = r#"<bitmap>media/images/box/movement/move.png</bitmap>
 
 /// Writes the project; `key_frames` were taken with a tick of 1 / [`FRAME_RATE`].
 pub fn xar(robot: &Robot, gait: &str, key_frames: &KeyFrames) -> String {
-    let frames: Vec<usize> = key_frames
-        .frames
-        .iter()
-        .map(|frame| FIRST_FRAME + frame.tick)
-        .collect();
+    let postures = &key_frames.frames;
+    let frames = postures.iter().map(|frame| FIRST_FRAME + frame.tick);
+    let frames: Vec<usize> = frames.collect();
     let size = frames.last().copied().unwrap_or(FIRST_FRAME);
     let mut curves = String::new();
     for (index, joint) in robot.joints.iter().enumerate() {
-        let degrees: Vec<f64> = key_frames
-            .frames
-            .iter()
-            .map(|frame| frame.angles.as_slice()[index].to_degrees())
-            .collect();
-        let keys: String = frames
-            .iter()
-            .enumerate()
-            .filter(|&(place, _)| is_needed(&degrees, place))
-            .map(|(place, frame)| key(&frames, place, *frame, degrees[place]))
+        let angles = postures.iter().map(|frame| frame.angles.as_slice()[index]);
+        let degrees: Vec<f64> = angles.map(f64::to_degrees).collect();
+        let needed = (0..frames.len()).filter(|place| is_needed(&degrees, *place));
+        let keys: String = needed
+            .map(|place| key(&frames, place, degrees[place]))
             .collect();
         let name = escaped(&joint.name);
         // Writing to a text does not fail.
@@ -94,7 +87,8 @@ fn is_needed(degrees: &[f64], place: usize) -> bool {
 }
 
 /// A key with straight tangents; their handles reach a third of the way to the neighbours.
-fn key(frames: &[usize], place: usize, frame: usize, degrees: f64) -> String {
+fn key(frames: &[usize], place: usize, degrees: f64) -> String {
+    let frame = frames[place];
     let third = |gap: usize| gap as f64 / 3.0;
     let mut tangents = String::new();
     if let Some(before) = place.checked_sub(1) {

@@ -39,7 +39,7 @@ pub enum UrdfError {
 ///
 /// # Errors
 /// [`UrdfError`].
-pub fn of(robot: &Robot, model: &RecordedModel) -> Result<String, UrdfError> {
+pub fn from_record(robot: &Robot, model: &RecordedModel) -> Result<String, UrdfError> {
     let names = robot.bodies.iter().map(|body| &body.name);
     if !names.eq(model.bodies.iter().map(|body| &body.name)) {
         return Err(UrdfError::OtherBodies {
@@ -75,18 +75,12 @@ pub fn of(robot: &Robot, model: &RecordedModel) -> Result<String, UrdfError> {
 fn inertial(body: &Body, shift: DVec3, inertia: &Inertia) -> String {
     let turn = DMat3::from_quat(inertia.rotation);
     let tensor = turn * DMat3::from_diagonal(inertia.principal) * turn.transpose();
-    let [x, y, z] = tensor.to_cols_array_2d();
+    let [[xx, xy, xz], [_, yy, yz], [.., zz]] = tensor.to_cols_array_2d();
     format!(
-        "    <inertial>{}<mass value=\"{:.6}\"/><inertia ixx=\"{:.9e}\" ixy=\"{:.9e}\" \
-         ixz=\"{:.9e}\" iyy=\"{:.9e}\" iyz=\"{:.9e}\" izz=\"{:.9e}\"/></inertial>\n",
+        "    <inertial>{}<mass value=\"{:.6}\"/><inertia ixx=\"{xx:.9e}\" ixy=\"{xy:.9e}\" \
+         ixz=\"{xz:.9e}\" iyy=\"{yy:.9e}\" iyz=\"{yz:.9e}\" izz=\"{zz:.9e}\"/></inertial>\n",
         origin(body.centre_of_mass.metres() - shift, DQuat::IDENTITY),
-        body.mass,
-        x[0],
-        x[1],
-        x[2],
-        y[1],
-        y[2],
-        z[2]
+        body.mass
     )
 }
 
@@ -132,11 +126,10 @@ fn joint(text: &mut String, robot: &Robot, body: &Body) {
     let pose = &body.parent_from_body;
     let at = pose.origin().metres() + pose.rotation() * shift - link_in_body(robot, parent);
     let hinge = body.joint.map(|joint| &robot.joints[joint.0]);
-    let name = hinge.map_or_else(
-        || format!("{}_fixed", body.name),
-        |joint| joint.name.clone(),
-    );
-    let kind = hinge.map_or("fixed", |_| "revolute");
+    let (name, kind) = match hinge {
+        Some(joint) => (joint.name.clone(), "revolute"),
+        None => (format!("{}_fixed", body.name), "fixed"),
+    };
     let _ = writeln!(
         text,
         "  <joint name=\"{}\" type=\"{kind}\">\n    {}<parent link=\"{}\"/><child link=\"{}\"/>",

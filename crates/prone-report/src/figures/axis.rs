@@ -35,12 +35,7 @@ impl Axis {
         const STEPS: f64 = 8.0;
         /// Room beyond the extreme values, per range.
         const ROOM: f64 = 0.03;
-        let extremes = values.into_iter().filter(|value| value.is_finite()).fold(
-            None,
-            |range: Option<(f64, f64)>, value| {
-                Some(range.map_or((value, value), |(a, b)| (a.min(value), b.max(value))))
-            },
-        );
+        let extremes = extremes(values.into_iter().filter(|value| value.is_finite()));
         let (low, high) = extremes.map_or((0.0, 1.0), |(low, high)| opened(low, high));
         let step = Step::at_least((high - low) / STEPS).size();
         let room = ROOM * (high - low);
@@ -66,13 +61,9 @@ impl Axis {
                 text.replace('-', "")
             }
         };
-        let major = self
-            .multiples(step)
-            .into_iter()
-            .map(|value| (value, label(value)))
-            .collect();
+        let major = self.multiples(step).into_iter();
         Ticks {
-            major,
+            major: major.map(|value| (value, label(value))).collect(),
             minor: self.multiples(step / round.parts()),
         }
     }
@@ -102,6 +93,12 @@ impl Axis {
     }
 }
 
+/// The least and the largest value; nothing of none.
+pub(crate) fn extremes(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
+    let ranges = values.map(|value| (value, value));
+    ranges.reduce(|(low, high), (value, _)| (low.min(value), high.max(value)))
+}
+
 /// The range, widened if it is too narrow to draw.
 fn opened(low: f64, high: f64) -> (f64, f64) {
     let magnitude = low.abs().max(high.abs()).max(1e-6);
@@ -125,21 +122,12 @@ impl Step {
         /// Rounding may leave a round size a little above itself.
         const SLACK: f64 = 1e-9;
         let exponent = size.log10().floor();
-        let reaches = |digit: &u8| {
-            Self {
-                digit: *digit,
-                exponent,
-            }
-            .size()
-                >= size * (1.0 - SLACK)
-        };
-        [1, 2, 5].into_iter().find(reaches).map_or(
-            Self {
-                digit: 1,
-                exponent: exponent + 1.0,
-            },
-            |digit| Self { digit, exponent },
-        )
+        let mut steps = [1, 2, 5].into_iter().map(|digit| Self { digit, exponent });
+        let enough = steps.find(|step| step.size() >= size * (1.0 - SLACK));
+        enough.unwrap_or(Self {
+            digit: 1,
+            exponent: exponent + 1.0,
+        })
     }
 
     fn size(self) -> f64 {

@@ -3,7 +3,7 @@
 use super::axis::Axis;
 use super::font::{self, Weight};
 use super::style::{Colour, INK, SMALL_SIZE, Stroke, TEXT_SIZE, diverging, step_colour};
-use super::svg::{Anchor, Canvas, Rect, TextStyle};
+use super::svg::{Anchor, Canvas, Look, Rect, TextStyle};
 
 /// Height of one step of the colour bar, at most.
 const HIGHEST_BAND: f64 = 70.0;
@@ -54,31 +54,17 @@ impl ColourBar {
         let count = self.steps.len().max(1) as f64;
         let band = (area.height / count).min(HIGHEST_BAND);
         let (middle, height) = (f64::midpoint(area.top, area.bottom()), count * band);
-        let area = Rect {
-            top: middle - height / 2.0,
-            height,
-            ..area
-        };
+        let area = Rect::new(area.left, middle - height / 2.0, area.width, height);
         for (index, step) in self.steps.iter().enumerate() {
             let top = area.bottom() - (index as f64 + 1.0) * band;
-            canvas.fill(
-                Rect {
-                    top,
-                    height: band,
-                    ..area
-                },
-                self.colour(index),
-            );
+            let step_area = Rect::new(area.left, top, area.width, band);
+            canvas.fill(step_area, self.colour(index));
             let at = (area.right() + 6.0, top + band / 2.0 + SMALL_SIZE * 0.35);
-            canvas.text(at, step, TextStyle::new(SMALL_SIZE, Anchor::Start));
+            canvas.text(at, step, TextStyle::plain(SMALL_SIZE, Anchor::Start));
         }
         canvas.outline(area, Stroke::solid(INK, 1.0));
-        label(
-            canvas,
-            area,
-            &self.label,
-            self.steps.iter().map(String::as_str),
-        );
+        let values = self.steps.iter().map(String::as_str);
+        label(canvas, area, &self.label, values);
     }
 }
 
@@ -107,14 +93,8 @@ impl HeatScale {
                 let share = (band as f64 + 0.5) / BANDS as f64;
                 let top = area.bottom() - (band + 1) as f64 * height;
                 let value = self.axis.low + share * (self.axis.high - self.axis.low);
-                canvas.fill(
-                    Rect {
-                        top,
-                        height,
-                        ..area
-                    },
-                    self.colour(value),
-                );
+                let band_area = Rect::new(area.left, top, area.width, height);
+                canvas.fill(band_area, self.colour(value));
             }
         });
         canvas.outline(area, Stroke::solid(INK, 1.0));
@@ -124,7 +104,7 @@ impl HeatScale {
             let ink = Stroke::solid(INK, 1.0);
             canvas.line((area.right(), y), (area.right() + TICK, y), ink);
             let at = (area.right() + TICK + 3.0, y + SMALL_SIZE * 0.35);
-            canvas.text(at, label, TextStyle::new(SMALL_SIZE, Anchor::Start));
+            canvas.text(at, label, TextStyle::plain(SMALL_SIZE, Anchor::Start));
         }
         let values = ticks.iter().map(|tick| tick.1.as_str());
         label(canvas, area, &self.axis.label, values);
@@ -138,11 +118,9 @@ fn label<'a>(
     meaning: &str,
     values: impl Iterator<Item = &'a str>,
 ) {
-    let widest = values.map(|value| font::width(value, SMALL_SIZE, Weight::Regular));
-    let at = (
-        area.right() + 6.0 + widest.fold(0.0, f64::max) + 4.0 + TEXT_SIZE,
-        area.top + area.height / 2.0,
-    );
-    let style = TextStyle::new(TEXT_SIZE, Anchor::Middle).upward();
+    let widths = values.map(|value| font::width(value, SMALL_SIZE, Weight::Regular));
+    let across = area.right() + 6.0 + widths.fold(0.0, f64::max) + 4.0 + TEXT_SIZE;
+    let at = (across, area.top + area.height / 2.0);
+    let style = TextStyle::plain(TEXT_SIZE, Anchor::Middle).looking(Look::Upward);
     canvas.text(at, meaning, style);
 }

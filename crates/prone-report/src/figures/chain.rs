@@ -6,7 +6,7 @@ use super::panel::{Aspect, Curve, Note, Panel, Rule};
 use super::sheet::Sheet;
 use super::style::{Fill, INK, Marker, Shape, Stroke};
 use super::svg::{Anchor, Point};
-use super::{Figure, Wording, sentence};
+use super::{Figure, FigureError, Wording, sentence};
 use prone_record::pulls::{ChainRecord, ChainSample};
 
 /// Postures drawn, first and last among them.
@@ -28,27 +28,24 @@ const NAMES: [(&str, Point, Anchor); 6] = [
 ];
 
 /// Stick figures of one gait; nothing without samples.
-pub(super) fn figure(record: &ChainRecord, number: &'static str) -> Option<Figure> {
+pub(super) fn figure(
+    record: &ChainRecord,
+    number: &'static str,
+) -> Result<Option<Figure>, FigureError> {
     let postures = instants(&record.samples);
-    let highest = record
-        .samples
-        .iter()
-        .max_by(|a, b| a.points_mm[ANKLE].1.total_cmp(&b.points_mm[ANKLE].1))?;
+    let height = |sample: &&ChainSample| sample.points_mm[ANKLE].1;
+    let by_height = |a: &&ChainSample, b: &&ChainSample| height(a).total_cmp(&height(b));
+    let Some(highest) = record.samples.iter().max_by(by_height) else {
+        return Ok(None);
+    };
+    let phases = postures.iter().map(|sample| sample.s);
     let bar = ColourBar {
         label: "phase s, –".to_owned(),
-        steps: postures
-            .iter()
-            .map(|sample| format!("{:.2}", sample.s))
-            .collect(),
+        steps: phases.map(|s| format!("{s:.2}")).collect(),
     };
     let gait = &record.gait;
-    let sheet = Sheet {
-        panels: vec![panel(&postures, highest, &bar)],
-        key: Vec::new(),
-        bar: Some(Bar::Steps(bar)),
-        columns: 1,
-        frame_height: 250.0,
-    };
+    let panel = panel(&postures, highest, &bar);
+    let sheet = Sheet::new(1, 250.0, [panel]).with_bar(Bar::Steps(bar));
     let height_mm = highest.points_mm[ANKLE].1;
     let wording = Wording {
         stem: format!("fig-{number}-{gait}-chain"),
@@ -66,7 +63,7 @@ pub(super) fn figure(record: &ChainRecord, number: &'static str) -> Option<Figur
              forward. The ankle's highest point is {height_mm:.0} millimetres."
         ),
     };
-    Some(wording.with(&sheet))
+    sheet.figure(wording).map(Some)
 }
 
 /// Equally spaced samples, the first and the last included.
@@ -81,29 +78,18 @@ fn instants(samples: &[ChainSample]) -> Vec<ChainSample> {
 }
 
 fn panel(postures: &[ChainSample], highest: &ChainSample, bar: &ColourBar) -> Panel {
-    let joint = Marker {
-        shape: Shape::Circle,
-        fill: Fill::Full,
-        radius: 3.2,
-    };
-    let mut curves: Vec<Curve> = postures
-        .iter()
-        .enumerate()
-        .map(|(index, sample)| Curve {
-            points: sample.points_mm.to_vec(),
-            stroke: Stroke::solid(bar.colour(index), 2.4),
-            marker: Some(joint),
-        })
-        .collect();
+    let joint = Marker::new(Shape::Circle, Fill::Full, 3.2);
+    let postures_drawn = postures.iter().enumerate().map(|(index, sample)| Curve {
+        points: sample.points_mm.to_vec(),
+        stroke: Stroke::solid(bar.colour(index), 2.4),
+        marker: Some(joint),
+    });
+    let mut curves: Vec<Curve> = postures_drawn.collect();
     let peak = highest.points_mm[ANKLE];
     curves.push(Curve {
         points: vec![peak],
         stroke: Stroke::solid(INK, 1.0),
-        marker: Some(Marker {
-            shape: Shape::Diamond,
-            fill: Fill::Hollow,
-            radius: 5.0,
-        }),
+        marker: Some(Marker::new(Shape::Diamond, Fill::Hollow, 5.0)),
     });
     let (x, y) = axes(postures, peak);
     let mut panel = Panel::new("side view", x, y, curves);
@@ -120,19 +106,13 @@ fn panel(postures: &[ChainSample], highest: &ChainSample, bar: &ColourBar) -> Pa
 }
 
 fn axes(postures: &[ChainSample], peak: Point) -> (Axis, Axis) {
-    let points = postures
-        .iter()
-        .flat_map(|sample| sample.points_mm)
-        .chain([peak]);
-    let (xs, zs): (Vec<f64>, Vec<f64>) = points.unzip();
+    let points = postures.iter().flat_map(|sample| sample.points_mm);
+    let (xs, zs): (Vec<f64>, Vec<f64>) = points.chain([peak]).unzip();
     let low = |values: &[f64]| values.iter().copied().fold(0.0, f64::min) - ROOM_MM;
     let high = |values: &[f64]| values.iter().copied().fold(0.0, f64::max) + ROOM_MM;
     let x = Axis::exactly("x, forward from the toe, mm", low(&xs), high(&xs));
-    let z = Axis::exactly(
-        "z, above the floor, mm",
-        low(&zs) + ROOM_MM / 4.0,
-        high(&zs),
-    );
+    let floor = low(&zs) + ROOM_MM / 4.0;
+    let z = Axis::exactly("z, above the floor, mm", floor, high(&zs));
     (x, z)
 }
 

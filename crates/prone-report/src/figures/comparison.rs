@@ -3,8 +3,8 @@
 use super::panel::{Curve, Panel};
 use super::sheet::{KeyEntry, Sheet};
 use super::style::gait_stroke;
-use super::torque::{TORQUE_MEANING, over_time, time_axis, torque_axis};
-use super::{Figure, Wording, selection, sentence};
+use super::torque::{TORQUE_MEANING, listed, over_time, time_axis, torque_axis};
+use super::{Figure, FigureError, Wording, selection, sentence};
 use prone_record::pulls::{JOINTS, PullRecord};
 
 /// Durations to show, or the nearest there are, s.
@@ -14,28 +14,22 @@ const DURATIONS_S: [f64; 3] = [1.0, 5.0, 10.0];
 type Pair<'a> = [&'a PullRecord; 2];
 
 /// A row per joint, a column per duration; nothing without a duration that both gaits have.
-pub(super) fn figure(pulls: &[PullRecord], reference: &str, other: &str) -> Option<Figure> {
+pub(super) fn figure(
+    pulls: &[PullRecord],
+    reference: &str,
+    other: &str,
+) -> Result<Option<Figure>, FigureError> {
     let pairs = pairs(pulls, reference, other);
     if pairs.is_empty() {
-        return None;
+        return Ok(None);
     }
     let panels = (0..JOINTS.len()).flat_map(|joint| joint_row(&pairs, joint));
     let key = [reference, other]
         .into_iter()
         .enumerate()
         .map(|(index, gait)| KeyEntry::line(format!("{gait} gait"), gait_stroke(index), None));
-    let sheet = Sheet {
-        key: key.collect(),
-        bar: None,
-        columns: pairs.len(),
-        frame_height: 150.0,
-        panels: panels.collect(),
-    };
-    let durations: Vec<String> = pairs
-        .iter()
-        .map(|pair| pair[0].duration_s.to_string())
-        .collect();
-    let durations = durations.join(", ");
+    let sheet = Sheet::new(pairs.len(), 150.0, panels).with_key(key);
+    let durations = listed(pairs.iter().map(|pair| pair[0]));
     let wording = Wording {
         stem: format!("fig-44-{reference}-against-{other}"),
         number: "44",
@@ -50,21 +44,18 @@ pub(super) fn figure(pulls: &[PullRecord], reference: &str, other: &str) -> Opti
              four joints and durations of {durations} seconds."
         ),
     };
-    Some(wording.with(&sheet))
+    sheet.figure(wording).map(Some)
 }
 
 fn pairs<'a>(pulls: &'a [PullRecord], reference: &str, other: &str) -> Vec<Pair<'a>> {
     let others = selection::runs_of(pulls, other);
-    let partner = |run: &PullRecord| {
-        others
-            .iter()
-            .copied()
-            .find(|o| selection::same_duration(o.duration_s, run.duration_s))
+    let pair = |run: &'a PullRecord| {
+        let same =
+            |other: &&&PullRecord| selection::same_duration(other.duration_s, run.duration_s);
+        Some([run, others.iter().find(same)?])
     };
-    let pairs: Vec<Pair> = selection::runs_of(pulls, reference)
-        .into_iter()
-        .filter_map(|run| partner(run).map(|other| [run, other]))
-        .collect();
+    let runs = selection::runs_of(pulls, reference).into_iter();
+    let pairs: Vec<Pair<'a>> = runs.filter_map(pair).collect();
     selection::nearest(&pairs, |pair| pair[0].duration_s, &DURATIONS_S)
 }
 
@@ -81,10 +72,6 @@ fn joint_row(pairs: &[Pair], joint: usize) -> Vec<Panel> {
 
 fn pair_curves(pair: &Pair, joint: usize) -> Vec<Curve> {
     let runs = pair.iter().enumerate();
-    let curves = runs.map(|(index, run)| Curve {
-        points: over_time(run, joint),
-        stroke: gait_stroke(index),
-        marker: None,
-    });
-    curves.collect()
+    runs.map(|(index, run)| Curve::new(over_time(run, joint), gait_stroke(index)))
+        .collect()
 }

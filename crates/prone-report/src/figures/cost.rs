@@ -5,36 +5,44 @@ use super::panel::{Curve, Panel, Rule};
 use super::sheet::{KeyEntry, Sheet};
 use super::style::{Dash, Fill, MARKER_RADIUS, Marker, REFERENCE, Stroke, gait_shape, gait_stroke};
 use super::svg::Point;
-use super::{Figure, GaitNumbers, Wording, selection};
+use super::{Figure, FigureError, GaitNumbers, Wording, selection};
 use prone_record::pulls::CostRecord;
 
 const NUMBER: &str = "45";
 
-/// Whose measurement a curve is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Source {
-    Ours,
-    Published,
+/// Whose costs a curve shows, and how it looks.
+struct Source {
+    label: &'static str,
+    fill: Fill,
+    dash: Dash,
+    cost: fn(&CostRecord) -> Option<f64>,
 }
 
-const SOURCES: [Source; 2] = [Source::Ours, Source::Published];
+const SOURCES: [Source; 2] = [
+    Source {
+        label: "ours",
+        fill: Fill::Full,
+        dash: Dash::Solid,
+        cost: |record| Some(record.cost_n2m2s),
+    },
+    Source {
+        label: "published (thesis)",
+        fill: Fill::Hollow,
+        dash: Dash::Short,
+        cost: |record| record.published_n2m2s,
+    },
+];
 
-/// Curves of all gaits and sources, with their meaning.
-type Series = Vec<(KeyEntry, Curve)>;
-
-/// Both halves; those without any point are left out.
-pub(super) fn figures(gaits: &[GaitNumbers], costs: &[CostRecord], reference: &str) -> Vec<Figure> {
-    [absolute(gaits, costs), ratio(gaits, costs, reference)]
-        .into_iter()
-        .flatten()
-        .collect()
-}
-
-fn absolute(gaits: &[GaitNumbers], costs: &[CostRecord]) -> Option<Figure> {
-    let series = series(gaits, costs, |gait, source| {
-        (gait.to_owned(), source.curve_of(costs, gait))
-    });
-    let sheet = sheet(series, "cost of one phase, N²·m²·s", &[0.0])?;
+/// Left half: the costs themselves; nothing without any.
+pub(super) fn absolute(
+    gaits: &[GaitNumbers],
+    costs: &[CostRecord],
+) -> Result<Option<Figure>, FigureError> {
+    let curve = |gait: &str, source: &Source| (gait.to_owned(), source.curve(costs, gait));
+    let label = "cost of one phase, N²·m²·s";
+    let Some(sheet) = sheet(gaits, costs, curve, label, 0.0) else {
+        return Ok(None);
+    };
     let wording = Wording {
         stem: format!("fig-{NUMBER}-left-cost"),
         number: NUMBER,
@@ -47,25 +55,25 @@ fn absolute(gaits: &[GaitNumbers], costs: &[CostRecord]) -> Option<Figure> {
         alt: "Line plot of torque cost against duration for each gait, ours and published."
             .to_owned(),
     };
-    Some(wording.with(&sheet))
+    sheet.figure(wording).map(Some)
 }
 
-fn ratio(gaits: &[GaitNumbers], costs: &[CostRecord], reference: &str) -> Option<Figure> {
-    let series = series(gaits, costs, |gait, source| {
-        let own = source.curve_of(costs, gait);
-        let base = source.curve_of(costs, reference);
-        let curve = if gait == reference {
-            Vec::new()
-        } else {
-            percent_of(&own, &base)
-        };
+/// Right half: costs over those of the gait `reference`; nothing without any.
+pub(super) fn ratio(
+    gaits: &[GaitNumbers],
+    costs: &[CostRecord],
+    reference: &str,
+) -> Result<Option<Figure>, FigureError> {
+    let curve = |gait: &str, source: &Source| {
+        let mut own = source.curve(costs, gait);
+        own.retain(|_| gait != reference);
+        let curve = percent_of(&own, &source.curve(costs, reference));
         (format!("{gait} / {reference}"), curve)
-    });
-    let sheet = sheet(
-        series,
-        &format!("cost relative to {reference}, %"),
-        &[100.0],
-    )?;
+    };
+    let label = format!("cost relative to {reference}, %");
+    let Some(sheet) = sheet(gaits, costs, curve, &label, 100.0) else {
+        return Ok(None);
+    };
     let wording = Wording {
         stem: format!("fig-{NUMBER}-right-cost-ratio"),
         number: NUMBER,
@@ -80,105 +88,61 @@ fn ratio(gaits: &[GaitNumbers], costs: &[CostRecord], reference: &str) -> Option
              and published."
         ),
     };
-    Some(wording.with(&sheet))
+    sheet.figure(wording).map(Some)
 }
 
 impl Source {
     /// Duration and cost of a gait, by rising duration.
-    fn curve_of(self, costs: &[CostRecord], gait: &str) -> Vec<Point> {
+    fn curve(&self, costs: &[CostRecord], gait: &str) -> Vec<Point> {
         let own = costs.iter().filter(|cost| cost.gait == gait);
-        let mut points: Vec<Point> = own
-            .filter_map(|cost| match self {
-                Self::Ours => Some((cost.duration_s, cost.cost_n2m2s)),
-                Self::Published => Some((cost.duration_s, cost.published_n2m2s?)),
-            })
-            .collect();
+        let points = own.filter_map(|cost| Some((cost.duration_s, (self.cost)(cost)?)));
+        let mut points: Vec<Point> = points.collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         points
     }
-
-    fn label(self) -> &'static str {
-        match self {
-            Self::Ours => "ours",
-            Self::Published => "published (thesis)",
-        }
-    }
-
-    fn fill(self) -> Fill {
-        match self {
-            Self::Ours => Fill::Full,
-            Self::Published => Fill::Hollow,
-        }
-    }
-
-    fn dash(self) -> Dash {
-        match self {
-            Self::Ours => Dash::Solid,
-            Self::Published => Dash::Short,
-        }
-    }
 }
 
-/// The curves `curve` makes of each gait and source, without empty ones.
-fn series(
+/// One panel with the curves that `curve` makes of each gait and source, and a line at `level`; nothing
+/// where all are empty.
+fn sheet(
     gaits: &[GaitNumbers],
     costs: &[CostRecord],
-    curve: impl Fn(&str, Source) -> (String, Vec<Point>),
-) -> Series {
+    curve: impl Fn(&str, &Source) -> (String, Vec<Point>),
+    label: &str,
+    level: f64,
+) -> Option<Sheet> {
     let names = costs.iter().map(|cost| cost.gait.as_str());
-    let gaits = selection::gaits(names, &selection::names(gaits));
-    let mut series = Vec::new();
+    let gaits = selection::each_once(names, &selection::names(gaits));
+    let (mut key, mut curves) = (Vec::new(), Vec::new());
     for (index, gait) in gaits.into_iter().enumerate() {
-        for source in SOURCES {
+        for source in &SOURCES {
             let (name, points) = curve(gait, source);
             if points.is_empty() {
                 continue;
             }
-            let stroke = gait_stroke(index).with_dash(source.dash());
-            let (shape, fill) = (gait_shape(index), source.fill());
-            let marker = Some(Marker {
-                shape,
-                fill,
-                radius: MARKER_RADIUS,
+            let stroke = gait_stroke(index).with_dash(source.dash);
+            let marker = Marker::new(gait_shape(index), source.fill, MARKER_RADIUS);
+            let marker = Some(marker);
+            let name = format!("{name}, {}", source.label);
+            key.push(KeyEntry::line(name, stroke, marker));
+            curves.push(Curve {
+                points,
+                stroke,
+                marker,
             });
-            let label = format!("{name}, {}", source.label());
-            series.push((
-                KeyEntry::line(label, stroke, marker),
-                Curve {
-                    points,
-                    stroke,
-                    marker,
-                },
-            ));
         }
     }
-    series
-}
-
-/// One panel with all curves and a level line at each of `levels`.
-fn sheet(series: Series, label: &str, levels: &[f64]) -> Option<Sheet> {
-    if series.is_empty() {
+    if curves.is_empty() {
         return None;
     }
-    let (key, curves): (Vec<KeyEntry>, Vec<Curve>) = series.into_iter().unzip();
     let points = || curves.iter().flat_map(|curve| &curve.points);
     let longest_s = points().map(|point| point.0).fold(0.0, f64::max);
     // A little more, for the markers at its end.
     let x = Axis::exactly("duration of the phase, s", 0.0, 1.05 * longest_s);
-    let y = Axis::covering(
-        label,
-        points().map(|point| point.1).chain(levels.iter().copied()),
-    );
+    let y = Axis::covering(label, points().map(|point| point.1).chain([level]));
     let mut panel = Panel::new("four joints of one side", x, y, curves);
-    let line = |level: &f64| Rule::Level(*level, Stroke::solid(REFERENCE, 1.0));
-    panel.rules = levels.iter().map(line).collect();
-    Some(Sheet {
-        key,
-        bar: None,
-        columns: 1,
-        frame_height: 330.0,
-        panels: vec![panel],
-    })
+    panel.rules = vec![Rule::Level(level, Stroke::solid(REFERENCE, 1.0))];
+    Some(Sheet::new(1, 330.0, [panel]).with_key(key))
 }
 
 /// Each cost in percent of the base's at the same duration.

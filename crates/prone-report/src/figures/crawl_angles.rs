@@ -5,7 +5,8 @@ use super::panel::{Band, Curve, Panel};
 use super::records::{AngleRecord, AngleRow};
 use super::sheet::{KeyEntry, Sheet};
 use super::style::{BAND, CURVE_WIDTH, INK, LIGHT, Stroke};
-use super::{Figure, FigureError, Wording, check};
+use super::torque::time_axis;
+use super::{Figure, FigureError, Wording};
 
 /// One panel for each joint; nothing without rows. `published` is the range that a joint swept on a
 /// robot, rad, where one is published.
@@ -16,16 +17,23 @@ pub fn figure(
     record: &AngleRecord,
     published: &dyn Fn(&str) -> Option<(f64, f64)>,
 ) -> Result<Option<Figure>, FigureError> {
-    check::angles(record)?;
     let AngleRecord {
         gait,
         joints,
         rows,
         cycles: shown,
+        not_simulated,
     } = record;
+    let ours = if not_simulated.is_none() {
+        ", ours"
+    } else {
+        ""
+    };
     let Some(end) = rows.last().map(|row| row.time_s) else {
         return Ok(None);
     };
+    let measured = Stroke::solid(INK, CURVE_WIDTH);
+    let commanded = Stroke::solid(LIGHT, CURVE_WIDTH + 1.0);
     let mut any_band = false;
     let panels = joints.iter().enumerate().map(|(joint, name)| {
         let over_time = |angles: fn(&AngleRow) -> &[f64]| {
@@ -33,62 +41,36 @@ pub fn figure(
             points.map(|row| (row.time_s, angles(row)[joint])).collect()
         };
         let curves = vec![
-            Curve {
-                points: over_time(|row| &row.command_rad),
-                stroke: Stroke::solid(LIGHT, CURVE_WIDTH + 1.0),
-                marker: None,
-            },
-            Curve {
-                points: over_time(|row| &row.angle_rad),
-                stroke: Stroke::solid(INK, CURVE_WIDTH),
-                marker: None,
-            },
+            Curve::new(over_time(|row| &row.command_rad), commanded),
+            Curve::new(over_time(|row| &row.angle_rad), measured),
         ];
         let band = published(name);
         any_band |= band.is_some();
-        let values = curves
-            .iter()
-            .flat_map(|curve| &curve.points)
-            .map(|point| point.1);
+        let points = curves.iter().flat_map(|curve| &curve.points);
         let ends = band.iter().flat_map(|&(low, high)| [low, high]);
-        let y = Axis::covering("angle, rad", values.chain(ends));
-        let mut panel = Panel::new(name.clone(), Axis::exactly("time, s", 0.0, end), y, curves);
-        panel
-            .bands
-            .extend(band.map(|(low, high)| Band { low, high }));
+        let y = Axis::covering("angle, rad", points.map(|point| point.1).chain(ends));
+        let mut panel = Panel::new(name.clone(), time_axis(end), y, curves);
+        let band = band.map(|(low, high)| Band { low, high });
+        panel.bands.extend(band);
         panel
     });
     let panels: Vec<Panel> = panels.collect();
     let mut key = vec![
-        KeyEntry::line(
-            "measured, ours".to_owned(),
-            Stroke::solid(INK, CURVE_WIDTH),
-            None,
-        ),
-        KeyEntry::line(
-            "commanded, ours".to_owned(),
-            Stroke::solid(LIGHT, CURVE_WIDTH + 1.0),
-            None,
-        ),
+        KeyEntry::line(format!("measured{ours}"), measured, None),
+        KeyEntry::line(format!("commanded{ours}"), commanded, None),
     ];
-    let mut source = "Ours: simulation, one value per 20 ms.".to_owned();
+    let mut source = not_simulated.as_ref().map_or_else(
+        || "Ours: simulation, one value per 20 ms.".to_owned(),
+        |from| format!("Source: {from}."),
+    );
     if any_band {
         key.push(KeyEntry::band(
             "range on the crawling robot, published".to_owned(),
             BAND,
         ));
-        source.push_str(
-            " Published: the range that the same joint swept on the real robot at 3 s a cycle, read \
-             off the original's figure.",
-        );
+        source.push_str(" The band is the published range of the joint.");
     }
-    let sheet = Sheet {
-        key,
-        bar: None,
-        columns: 2,
-        frame_height: 130.0,
-        panels,
-    };
+    let sheet = Sheet::new(2, 130.0, panels).with_key(key);
     let wording = Wording {
         stem: format!("fig-31-{gait}-angles"),
         number: "31",
@@ -103,5 +85,5 @@ pub fn figure(
             joints.len()
         ),
     };
-    Ok(Some(wording.with(&sheet)))
+    sheet.figure(wording).map(Some)
 }

@@ -1,56 +1,36 @@
 //! The ceiling against what a crawl reaches below it: advance, and heat.
 
-use super::axis::Axis;
+use super::axis::{Axis, extremes};
 use super::panel::{Curve, Panel};
 use super::sheet::{KeyEntry, Sheet};
 use super::style::{
     CURVE_WIDTH, Dash, Fill, MARKER_RADIUS, Marker, REFERENCE, Stroke, gait_shape, gait_stroke,
 };
 use super::svg::Point;
-use super::{Figure, Wording};
-use prone_record::frontier::ConfirmedSetting;
-use prone_record::frontier::CycleObjective;
-use prone_record::frontier::SettingKind;
-use prone_record::frontier::{Found, Frontier};
+use super::{Figure, FigureError, Wording};
+use prone_record::frontier::{ConfirmedSetting, CycleObjective, Found, Frontier, SettingKind};
 
 /// The ceiling against what was reached below it; `None` where nothing was found.
-pub fn figure(frontier: &Frontier) -> Option<Figure> {
-    let advance = panel(
-        frontier,
-        SettingKind::AsItIs,
-        "advance per cycle, mm",
-        |row| row.mm_per_cycle,
-    );
-    let heat = panel(
-        frontier,
-        SettingKind::AsItIs,
-        "heat per metre, s/m",
-        |row| row.heat_per_metre_s,
-    );
+///
+/// # Errors
+/// [`FigureError`] where a number cannot be drawn.
+pub fn figure(frontier: &Frontier) -> Result<Option<Figure>, FigureError> {
+    let advance = panel(frontier, "advance per cycle, mm", |row| row.mm_per_cycle);
+    let heat = panel(frontier, "heat per metre, s/m", |row| row.heat_per_metre_s);
     let panels: Vec<Panel> = [advance, heat].into_iter().flatten().collect();
     if panels.is_empty() {
-        return None;
+        return Ok(None);
     }
-    let key = vec![
-        KeyEntry::line("best of each ceiling".to_owned(), line(), None),
-        KeyEntry::line(
-            "one search, holds".to_owned(),
-            Stroke::solid(REFERENCE, 0.0),
-            Some(marker(Fill::Full)),
-        ),
-        KeyEntry::line(
-            "one search, does not".to_owned(),
-            Stroke::solid(REFERENCE, 0.0),
-            Some(marker(Fill::Hollow)),
-        ),
-    ];
-    let sheet = Sheet {
-        key,
-        bar: None,
-        columns: 1,
-        frame_height: 250.0,
-        panels,
+    let one = |label: &str, fill: Fill| {
+        let no_line = Stroke::solid(REFERENCE, 0.0);
+        KeyEntry::line(label.to_owned(), no_line, Some(marker(fill)))
     };
+    let key = [
+        KeyEntry::line("best of each ceiling".to_owned(), line(), None),
+        one("one search, holds", Fill::Full),
+        one("one search, does not", Fill::Hollow),
+    ];
+    let sheet = Sheet::new(1, 250.0, panels).with_key(key);
     let wording = Wording {
         stem: "frontier".to_owned(),
         number: "",
@@ -72,7 +52,7 @@ pub fn figure(frontier: &Frontier) -> Option<Figure> {
             "Two plots over the height of the ceiling: advance per cycle and motor heat per metre."
                 .to_owned(),
     };
-    Some(wording.with(&sheet))
+    sheet.figure(wording).map(Some)
 }
 
 fn line() -> Stroke {
@@ -80,71 +60,58 @@ fn line() -> Stroke {
 }
 
 fn marker(fill: Fill) -> Marker {
-    Marker {
-        shape: gait_shape(0),
-        fill,
-        radius: MARKER_RADIUS,
-    }
+    Marker::new(gait_shape(0), fill, MARKER_RADIUS)
+}
+
+/// One search: ceiling and what was reached below it, whether that holds, and its own measure.
+struct Search {
+    at: Point,
+    holds: bool,
+    value: f64,
 }
 
 fn panel(
     frontier: &Frontier,
-    setting: SettingKind,
     label: &str,
-    of: impl Fn(&ConfirmedSetting) -> Option<f64>,
+    reached: impl Fn(&ConfirmedSetting) -> Option<f64>,
 ) -> Option<Panel> {
-    let point = |found: &Found| -> Option<(Point, Fill, f64)> {
-        let row = found
-            .confirmed
-            .settings
-            .iter()
-            .find(|row| row.setting == setting)?;
-        let fill = if found.confirmed.holds {
+    let search = |found: &Found| {
+        let mut settings = found.confirmed.settings.iter();
+        let row = settings.find(|row| row.setting == SettingKind::AsItIs)?;
+        let reached = reached(row).filter(|value| value.is_finite())?;
+        Some(Search {
+            at: (found.ceiling_mm?, reached),
+            holds: found.confirmed.holds,
+            value: found.value.unwrap_or(f64::INFINITY),
+        })
+    };
+    let searches: Vec<Search> = frontier.found.iter().filter_map(search).collect();
+    // The best by the search's own measure, holding ones first.
+    let mut best: Vec<&Search> = Vec::new();
+    for search in &searches {
+        let same = |old: &&mut &Search| old.at.0.total_cmp(&search.at.0).is_eq();
+        match best.iter_mut().find(same) {
+            Some(old) if (search.holds, -search.value) > (old.holds, -old.value) => *old = search,
+            Some(_) => {}
+            None => best.push(search),
+        }
+    }
+    best.sort_by(|a, b| a.at.0.total_cmp(&b.at.0));
+    let best = best.into_iter().map(|search| search.at).collect();
+    let mut curves = vec![Curve::new(best, line())];
+    curves.extend(searches.iter().map(|search| Curve {
+        points: vec![search.at],
+        stroke: Stroke::solid(gait_stroke(0).colour, CURVE_WIDTH),
+        marker: Some(marker(if search.holds {
             Fill::Full
         } else {
             Fill::Hollow
-        };
-        let value = of(row).filter(|value| value.is_finite())?;
-        Some((
-            (found.ceiling_mm?, value),
-            fill,
-            found.value.unwrap_or(f64::INFINITY),
-        ))
-    };
-    let points: Vec<(Point, Fill, f64)> = frontier.found.iter().filter_map(point).collect();
-    if points.is_empty() {
-        return None;
-    }
-    // The best by the search's own measure, holding ones first.
-    let mut best: Vec<(Point, bool, f64)> = Vec::new();
-    for &(at, fill, value) in &points {
-        let holds = fill == Fill::Full;
-        match best
-            .iter_mut()
-            .find(|(other, ..)| other.0.total_cmp(&at.0).is_eq())
-        {
-            Some(old) if (holds, -value) > (old.1, -old.2) => *old = (at, holds, value),
-            Some(_) => {}
-            None => best.push((at, holds, value)),
-        }
-    }
-    best.sort_by(|a, b| a.0.0.total_cmp(&b.0.0));
-    let mut curves = vec![Curve {
-        points: best.into_iter().map(|(at, ..)| at).collect(),
-        stroke: line(),
-        marker: None,
-    }];
-    curves.extend(points.iter().map(|&(at, fill, _)| Curve {
-        points: vec![at],
-        stroke: Stroke::solid(gait_stroke(0).colour, CURVE_WIDTH),
-        marker: Some(marker(fill)),
+        })),
     }));
-    let heights = points.iter().map(|(at, ..)| at.0);
-    let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), height| {
-        (low.min(height), high.max(height))
-    });
+    let (low, high) = extremes(searches.iter().map(|search| search.at.0))?;
     let room = (0.08 * (high - low)).max(2.0);
     let x = Axis::exactly("ceiling above the floor, mm", low - room, high + room);
-    let y = Axis::covering(label, points.iter().map(|(at, ..)| at.1).chain([0.0]));
+    let values = searches.iter().map(|search| search.at.1);
+    let y = Axis::covering(label, values.chain([0.0]));
     Some(Panel::new("", x, y, curves))
 }

@@ -41,12 +41,8 @@ impl Cells {
         let (row, column) = (index / self.columns.max(1), index % self.columns.max(1));
         let beyond = |place: usize, count: usize| if place + 1 < count { OVERLAP } else { 0.0 };
         let (right, up) = (beyond(column, self.columns), beyond(row, self.rows()));
-        Rect {
-            top: cell.top - up,
-            width: cell.width + right,
-            height: cell.height + up,
-            ..cell
-        }
+        let (width, height) = (cell.width + right, cell.height + up);
+        Rect::new(cell.left, cell.top - up, width, height)
     }
 
     fn rows(&self) -> usize {
@@ -57,12 +53,8 @@ impl Cells {
         let (columns, rows) = (self.columns.max(1), self.rows());
         let (row, column) = ((index / columns) as f64, (index % columns) as f64);
         let (width, height) = (frame.width / columns as f64, frame.height / rows as f64);
-        Rect {
-            left: frame.left + column * width,
-            top: frame.bottom() - (row + 1.0) * height,
-            width,
-            height,
-        }
+        let left = frame.left + column * width;
+        Rect::new(left, frame.bottom() - (row + 1.0) * height, width, height)
     }
 }
 

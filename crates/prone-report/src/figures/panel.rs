@@ -5,7 +5,7 @@ use super::axis::{Axis, Ticks};
 use super::font::{self, Weight};
 use super::heat::Cells;
 use super::style::{BAND, GRID, INK, MINOR_GRID, Marker, REFERENCE, SMALL_SIZE, Stroke, TEXT_SIZE};
-use super::svg::{Anchor, Canvas, Point, Rect, TextStyle};
+use super::svg::{Anchor, Canvas, Look, Point, Rect, TextStyle};
 
 /// Units of the drawing per labelled tick, at least.
 const ACROSS_PER_TICK: f64 = 40.0;
@@ -47,6 +47,18 @@ pub(super) struct Curve {
     pub(super) points: Vec<Point>,
     pub(super) stroke: Stroke,
     pub(super) marker: Option<Marker>,
+}
+
+impl Curve {
+    /// A line without markers.
+    pub(super) const fn new(points: Vec<Point>, stroke: Stroke) -> Self {
+        let marker = None;
+        Self {
+            points,
+            stroke,
+            marker,
+        }
+    }
 }
 
 /// A level stripe from edge to edge.
@@ -107,32 +119,28 @@ impl Panel {
     /// Draws the plot; labels go outside `frame`, the one on the left `label_gap` away from it.
     pub(super) fn draw(&self, canvas: &mut Canvas, frame: Rect, label_gap: f64) {
         let (x, y) = self.scaled(frame);
-        let view = View {
-            x: &x,
-            y: &y,
-            frame,
-        };
-        self.bands
-            .iter()
-            .for_each(|band| view.draw_band(canvas, *band));
+        let view = View { x, y, frame };
+        for band in &self.bands {
+            view.draw_band(canvas, *band);
+        }
         view.draw_grid(canvas);
         if let Some(cells) = &self.cells {
             cells.draw(canvas, frame);
         }
         canvas.clipped(frame, |canvas| {
-            self.rules
-                .iter()
-                .for_each(|rule| view.draw_rule(canvas, *rule));
-            self.curves
-                .iter()
-                .for_each(|curve| view.draw_curve(canvas, curve));
+            for rule in &self.rules {
+                view.draw_rule(canvas, *rule);
+            }
+            for curve in &self.curves {
+                view.draw_curve(canvas, curve);
+            }
         });
         canvas.outline(frame, Stroke::solid(INK, 1.0));
         view.draw_labels(canvas, label_gap);
-        self.notes
-            .iter()
-            .for_each(|note| view.draw_note(canvas, note));
-        let title = TextStyle::new(TEXT_SIZE, Anchor::Start).bold();
+        for note in &self.notes {
+            view.draw_note(canvas, note);
+        }
+        let title = TextStyle::plain(TEXT_SIZE, Anchor::Start).looking(Look::Bold);
         canvas.text((frame.left, frame.top - 7.0), &self.title, title);
     }
 
@@ -149,13 +157,21 @@ impl Panel {
 }
 
 /// Axes laid on a frame.
-struct View<'a> {
-    x: &'a Axis,
-    y: &'a Axis,
+struct View {
+    x: Axis,
+    y: Axis,
     frame: Rect,
 }
 
-impl View<'_> {
+impl View {
+    fn x_ticks(&self) -> Ticks {
+        self.x.ticks(whole(self.frame.width / ACROSS_PER_TICK))
+    }
+
+    fn y_ticks(&self) -> Ticks {
+        ticks_up(&self.y, self.frame.height)
+    }
+
     fn across(&self, x: f64) -> f64 {
         self.frame.left + self.x.fraction(x) * self.frame.width
     }
@@ -169,10 +185,7 @@ impl View<'_> {
     }
 
     fn draw_grid(&self, canvas: &mut Canvas) {
-        let (x, y) = (
-            ticks_across(self.x, self.frame.width),
-            ticks_up(self.y, self.frame.height),
-        );
+        let (x, y) = (self.x_ticks(), self.y_ticks());
         let fine = x.minor.iter().map(|x| self.upright(*x));
         let fine = fine.chain(y.minor.iter().map(|y| self.level(*y)));
         canvas.lines(&fine.collect::<Vec<_>>(), Stroke::solid(MINOR_GRID, 0.7));
@@ -187,25 +200,17 @@ impl View<'_> {
         let (top, bottom) = (self.down(band.high), self.down(band.low));
         let middle = f64::midpoint(top, bottom);
         let height = (bottom - top).max(THINNEST);
-        let area = Rect {
-            left: self.frame.left,
-            top: middle - height / 2.0,
-            width: self.frame.width,
-            height,
-        };
-        canvas.fill(area, BAND);
+        let top = middle - height / 2.0;
+        canvas.fill(
+            Rect::new(self.frame.left, top, self.frame.width, height),
+            BAND,
+        );
     }
 
     fn draw_rule(&self, canvas: &mut Canvas, rule: Rule) {
-        let (from, to, stroke) = match rule {
-            Rule::At(x, stroke) => {
-                let (from, to) = self.upright(x);
-                (from, to, stroke)
-            }
-            Rule::Level(y, stroke) => {
-                let (from, to) = self.level(y);
-                (from, to, stroke)
-            }
+        let ((from, to), stroke) = match rule {
+            Rule::At(x, stroke) => (self.upright(x), stroke),
+            Rule::Level(y, stroke) => (self.level(y), stroke),
         };
         canvas.line(from, to, stroke);
     }
@@ -235,40 +240,27 @@ impl View<'_> {
     fn draw_labels(&self, canvas: &mut Canvas, label_gap: f64) {
         let frame = self.frame;
         let below = frame.bottom() + TICK_GAP + SMALL_SIZE * 0.8;
-        for (value, label) in ticks_across(self.x, frame.width).major {
-            let style = TextStyle::new(SMALL_SIZE, Anchor::Middle);
+        for (value, label) in self.x_ticks().major {
+            let style = TextStyle::plain(SMALL_SIZE, Anchor::Middle);
             canvas.text((self.across(value), below), &label, style);
         }
-        for (value, label) in ticks_up(self.y, frame.height).major {
+        for (value, label) in self.y_ticks().major {
             let at = (frame.left - TICK_GAP, self.down(value) + SMALL_SIZE * 0.35);
-            canvas.text(at, &label, TextStyle::new(SMALL_SIZE, Anchor::End));
+            canvas.text(at, &label, TextStyle::plain(SMALL_SIZE, Anchor::End));
         }
-        let style = TextStyle::new(TEXT_SIZE, Anchor::Middle);
-        let middle = (
-            frame.left + frame.width / 2.0,
-            frame.top + frame.height / 2.0,
-        );
-        canvas.text((middle.0, below + TEXT_SIZE * 1.4), &self.x.label, style);
-        canvas.text(
-            (frame.left - label_gap, middle.1),
-            &self.y.label,
-            style.upward(),
-        );
+        let style = TextStyle::plain(TEXT_SIZE, Anchor::Middle);
+        let below = (frame.left + frame.width / 2.0, below + TEXT_SIZE * 1.4);
+        canvas.text(below, &self.x.label, style);
+        let beside = (frame.left - label_gap, frame.top + frame.height / 2.0);
+        canvas.text(beside, &self.y.label, style.looking(Look::Upward));
     }
 
     fn draw_note(&self, canvas: &mut Canvas, note: &Note) {
         let (across, down) = self.place(&note.at);
         let at = (across + note.offset.0, down + note.offset.1);
-        canvas.text(
-            at,
-            &note.text,
-            TextStyle::new(SMALL_SIZE, note.anchor).with_halo(),
-        );
+        let style = TextStyle::plain(SMALL_SIZE, note.anchor);
+        canvas.text(at, &note.text, style.looking(Look::Halo));
     }
-}
-
-fn ticks_across(axis: &Axis, width: f64) -> Ticks {
-    axis.ticks(whole(width / ACROSS_PER_TICK))
 }
 
 fn ticks_up(axis: &Axis, height: f64) -> Ticks {

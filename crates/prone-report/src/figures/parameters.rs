@@ -4,34 +4,31 @@ use super::axis::Axis;
 use super::panel::{Curve, Panel};
 use super::sheet::{KeyEntry, Sheet};
 use super::style::gait_stroke;
-use super::{Figure, GaitNumbers, Wording, selection};
+use super::{Figure, FigureError, GaitNumbers, Wording, selection};
 use prone_record::pulls::ChainRecord;
 
 const PARAMETERS: [&str; 3] = ["θ3 (knee)", "θ4 (hip)", "α (upper arm)"];
 
 /// One panel per parameter, all gaits in each.
-pub(super) fn figure(gaits: &[GaitNumbers], chains: &[ChainRecord]) -> Option<Figure> {
+pub(crate) fn figure(
+    gaits: &[GaitNumbers],
+    chains: &[ChainRecord],
+) -> Result<Option<Figure>, FigureError> {
     let names = chains.iter().filter(|chain| !chain.samples.is_empty());
     let names = names.map(|chain| chain.gait.as_str());
-    let gaits = selection::gaits(names, &selection::names(gaits));
+    let gaits = selection::each_once(names, &selection::names(gaits));
     let chains: Vec<&ChainRecord> = gaits
         .iter()
         .filter_map(|gait| chains.iter().find(|chain| chain.gait == *gait))
         .collect();
     if chains.is_empty() {
-        return None;
+        return Ok(None);
     }
     let key = chains.iter().enumerate().map(|(index, chain)| {
         KeyEntry::line(format!("{} gait", chain.gait), gait_stroke(index), None)
     });
     let panels = (0..PARAMETERS.len()).map(|parameter| panel(&chains, parameter));
-    let sheet = Sheet {
-        key: key.collect(),
-        bar: None,
-        columns: PARAMETERS.len(),
-        frame_height: 210.0,
-        panels: panels.collect(),
-    };
+    let sheet = Sheet::new(PARAMETERS.len(), 210.0, panels).with_key(key);
     let wording = Wording {
         stem: "fig-25-gait-parameters".to_owned(),
         number: "25",
@@ -47,28 +44,18 @@ pub(super) fn figure(gaits: &[GaitNumbers], chains: &[ChainRecord]) -> Option<Fi
             gaits.join(", ")
         ),
     };
-    Some(wording.with(&sheet))
+    sheet.figure(wording).map(Some)
 }
 
 fn panel(chains: &[&ChainRecord], parameter: usize) -> Panel {
-    let curves = chains.iter().enumerate().map(|(index, chain)| Curve {
-        points: chain
-            .samples
-            .iter()
-            .map(|sample| (sample.s, sample.parameters_deg[parameter]))
-            .collect(),
-        stroke: gait_stroke(index),
-        marker: None,
+    let curves = chains.iter().enumerate().map(|(index, chain)| {
+        let samples = chain.samples.iter();
+        let points = samples.map(|sample| (sample.s, sample.parameters_deg[parameter]));
+        Curve::new(points.collect(), gait_stroke(index))
     });
     let curves: Vec<Curve> = curves.collect();
-    let values = curves
-        .iter()
-        .flat_map(|curve| curve.points.iter().map(|point| point.1));
-    let y = Axis::covering("angle, °", values);
-    Panel::new(
-        PARAMETERS[parameter],
-        Axis::exactly("phase s, –", 0.0, 1.0),
-        y,
-        curves,
-    )
+    let points = curves.iter().flat_map(|curve| &curve.points);
+    let x = Axis::exactly("phase s, –", 0.0, 1.0);
+    let y = Axis::covering("angle, °", points.map(|point| point.1));
+    Panel::new(PARAMETERS[parameter], x, y, curves)
 }

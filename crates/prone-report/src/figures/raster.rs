@@ -11,17 +11,9 @@ use super::{FigureError, font, style};
 /// [`FigureError`] where the SVG is malformed, or the size of no use.
 pub fn png(svg: &str, scale: f32) -> Result<Vec<u8>, FigureError> {
     let tree = parse(svg)?;
-    let mut pixels = blank(
-        tree.size().width() * scale,
-        tree.size().height() * scale,
-        scale,
-    )?;
-    resvg::render(
-        &tree,
-        Transform::from_scale(scale, scale),
-        &mut pixels.as_mut(),
-    );
-    encode(&pixels)
+    let (width, height) = (tree.size().width(), tree.size().height());
+    let pixels = blank(width * scale, height * scale, scale)?;
+    drawn(&tree, scale, pixels)
 }
 
 /// Draws `svg` over a picture of the same size, 8-bit RGB by rows, and encodes both as PNG.
@@ -39,8 +31,7 @@ pub fn png_over(
         pixel[..3].copy_from_slice(rgb);
         pixel[3] = u8::MAX;
     }
-    resvg::render(&tree, Transform::identity(), &mut pixels.as_mut());
-    encode(&pixels)
+    drawn(&tree, 1.0, pixels)
 }
 
 fn parse(svg: &str) -> Result<Tree, FigureError> {
@@ -52,10 +43,12 @@ fn parse(svg: &str) -> Result<Tree, FigureError> {
     Ok(Tree::from_str(svg, &options)?)
 }
 
-fn encode(pixels: &Pixmap) -> Result<Vec<u8>, FigureError> {
-    pixels
-        .encode_png()
-        .map_err(|error| FigureError::Encode(error.to_string()))
+/// The drawing over what is in the picture, as PNG.
+fn drawn(tree: &Tree, scale: f32, mut pixels: Pixmap) -> Result<Vec<u8>, FigureError> {
+    let transform = Transform::from_scale(scale, scale);
+    resvg::render(tree, transform, &mut pixels.as_mut());
+    let png = pixels.encode_png();
+    png.map_err(|error| FigureError::Encode(error.to_string()))
 }
 
 fn blank(width: f32, height: f32, scale: f32) -> Result<Pixmap, FigureError> {
@@ -71,8 +64,7 @@ fn blank(width: f32, height: f32, scale: f32) -> Result<Pixmap, FigureError> {
             .contains(&length)
             .then_some(length.ceil() as u32)
     };
-    let pixmap = side(width)
-        .zip(side(height))
-        .and_then(|(w, h)| Pixmap::new(w, h));
+    let sides = side(width).zip(side(height));
+    let pixmap = sides.and_then(|(width, height)| Pixmap::new(width, height));
     pixmap.ok_or(FigureError::Scale { scale })
 }

@@ -62,7 +62,7 @@ pub enum Scores {
 
 impl SearchRecord {
     /// The best run of a search, to the digits of `history.csv`; nothing where none has a gait.
-    pub fn of(search: &Search, objective: &Objective, scores: Scores) -> Option<Self> {
+    pub fn from_search(search: &Search, objective: &Objective, scores: Scores) -> Option<Self> {
         let (run, _) = search.best()?;
         let written = |value: f64| as_written(value, 6);
         let finite = |value: f64| Some(written(value)).filter(|value| value.is_finite());
@@ -85,8 +85,8 @@ impl SearchRecord {
 }
 
 impl ConfirmedRecord {
-    /// Of every row of a confirmation.
-    pub fn of(confirmation: &Confirmation) -> Vec<Self> {
+    /// What is drawn of every row of a confirmation.
+    pub fn from_confirmation(confirmation: &Confirmation) -> Vec<Self> {
         let rows = confirmation.rows.iter().map(|row| Self {
             regime: row.regime.to_owned(),
             gait: row.gait.clone(),
@@ -108,6 +108,8 @@ pub struct AngleRecord {
     pub rows: Vec<AngleRow>,
     /// How many cycles these are.
     pub cycles: usize,
+    /// Where they were recorded, if they were not simulated.
+    pub not_simulated: Option<String>,
 }
 
 /// One instant.

@@ -8,86 +8,79 @@ use super::style::{
     CURVE_WIDTH, Dash, Fill, MARKER_RADIUS, Marker, REFERENCE, Stroke, gait_shape, gait_stroke,
 };
 use super::svg::Point;
-use super::{Figure, FigureError, Wording, check};
+use super::{Figure, FigureError, Wording, selection};
 
 /// Points of a curve at most: a figure is 900 units wide.
 const MOST_POINTS: usize = 400;
+
+/// Values of the best and of the mean gait of a generation.
+type BestAndMean = fn(&GenerationRecord) -> (Option<f64>, Option<f64>);
+
+/// What scores mean, in words and in numbers.
+struct Meaning<'a> {
+    /// What a violation counts.
+    violation: &'static str,
+    violations: BestAndMean,
+    /// Title and label of the torque part.
+    value: (&'static str, String),
+    values: BestAndMean,
+    /// Of which gaits the mean is.
+    mean: &'static str,
+    /// What is minimised.
+    searched: &'a str,
+}
 
 /// Figure 24; nothing without generations.
 ///
 /// # Errors
 /// [`FigureError`] where a number cannot be drawn.
 pub fn generations(search: &SearchRecord) -> Result<Option<Figure>, FigureError> {
-    check::search(search)?;
-    if search.generations.is_empty() {
+    let rows = &search.generations;
+    if rows.is_empty() {
         return Ok(None);
     }
-    let unit = &search.unit;
-    let rows = &search.generations;
-    let (left, right) = match search.scores {
-        Scores::Published => (
-            panel(rows, "broken rules", "violated samples", |row| {
-                (Some(row.best_violation), Some(row.mean_violation))
-            }),
-            panel(
-                rows,
-                "torque part",
-                &format!("Σ w τ² dt, {unit}"),
-                |row| (Some(row.best_value), row.mean_value),
-            ),
-        ),
-        Scores::Graded => (
-            panel(rows, "broken rules", "excess, shares of limits", |row| {
-                (Some(row.best_violation), None)
-            }),
-            panel(
-                rows,
-                "gaits that keep the rules",
-                &format!("{}, {unit}", search.objective),
-                |row| {
-                    let feasible = row.best_violation == 0.0;
-                    (feasible.then_some(row.best_value), row.mean_feasible_value)
-                },
-            ),
-        ),
+    let (unit, objective) = (&search.unit, search.objective.as_str());
+    let meaning = match search.scores {
+        Scores::Published => Meaning {
+            violation: "violated samples",
+            violations: |row| (Some(row.best_violation), Some(row.mean_violation)),
+            value: ("torque part", format!("Σ w τ² dt, {unit}")),
+            values: |row| (Some(row.best_value), row.mean_value),
+            mean: "all gaits of the generation",
+            searched: "the torque part",
+        },
+        Scores::Graded => Meaning {
+            violation: "excess, shares of limits",
+            violations: |row| (Some(row.best_violation), None),
+            value: ("gaits that keep the rules", format!("{objective}, {unit}")),
+            values: |row| {
+                let feasible = row.best_violation == 0.0;
+                (feasible.then_some(row.best_value), row.mean_feasible_value)
+            },
+            mean: "the gaits of the generation that keep the rules",
+            searched: objective,
+        },
     };
-    let known = |row: &GenerationRecord| match search.scores {
-        Scores::Published => row.mean_value.is_some(),
-        Scores::Graded => row.mean_feasible_value.is_some(),
-    };
-    let means = rows.iter().any(known);
-    let key = [("best of the run so far", 0), ("mean of the generation", 1)];
-    let key = key.into_iter().take(if means { 2 } else { 1 });
-    let sheet = Sheet {
-        key: key
-            .map(|(label, index)| KeyEntry::line(label.to_owned(), stroke(index), None))
-            .collect(),
-        bar: None,
-        columns: 2,
-        frame_height: 260.0,
-        panels: vec![left, right],
-    };
-    let (mean, searched) = match search.scores {
-        Scores::Published => ("all gaits of the generation", "the torque part"),
-        Scores::Graded => (
-            "the gaits of the generation that keep the rules",
-            search.objective.as_str(),
-        ),
-    };
-    let dashed = if means {
-        format!(" Dashed: the mean of {mean}.")
-    } else {
-        String::new()
-    };
+    let (value, label) = &meaning.value;
+    let panels = [
+        panel(rows, "broken rules", meaning.violation, meaning.violations),
+        panel(rows, value, label, meaning.values),
+    ];
+    let (mean, searched) = (meaning.mean, meaning.searched);
+    let best = KeyEntry::line("best of the run so far".to_owned(), stroke(0), None);
+    let mut key = vec![best];
+    let (mut title, mut dashed) = ("Best of each generation", String::new());
+    if rows.iter().any(|row| (meaning.values)(row).1.is_some()) {
+        let label = "mean of the generation".to_owned();
+        key.push(KeyEntry::line(label, stroke(1), None));
+        title = "Best and mean of each generation";
+        dashed = format!(" Dashed: the mean of {mean}.");
+    }
+    let sheet = Sheet::new(2, 260.0, panels).with_key(key);
     let wording = Wording {
         stem: "fig-24-search".to_owned(),
         number: "24",
-        title: if means {
-            "Best and mean of each generation"
-        } else {
-            "Best of each generation"
-        }
-        .to_owned(),
+        title: title.to_owned(),
         caption: format!(
             "The run with seed {} over its generations: left the rules that are broken, right {searched}. \
              Solid: the best gait so far.{dashed} Fewer violations win, and {searched} decides between \
@@ -99,7 +92,7 @@ pub fn generations(search: &SearchRecord) -> Result<Option<Figure>, FigureError>
              generation."
         ),
     };
-    Ok(Some(wording.with(&sheet)))
+    sheet.figure(wording).map(Some)
 }
 
 fn stroke(index: usize) -> Stroke {
@@ -110,19 +103,16 @@ fn stroke(index: usize) -> Stroke {
     }
 }
 
-fn panel(
-    rows: &[GenerationRecord],
-    title: &str,
-    label: &str,
-    of: impl Fn(&GenerationRecord) -> (Option<f64>, Option<f64>),
-) -> Panel {
+fn panel(rows: &[GenerationRecord], title: &str, label: &str, best_and_mean: BestAndMean) -> Panel {
     let step = rows.len().div_ceil(MOST_POINTS).max(1);
     let (mut best, mut mean) = (Vec::new(), Vec::new());
     for row in rows.iter().step_by(step).chain(rows.last()) {
         let generation = row.generation as f64;
-        let (of_best, of_mean) = of(row);
-        best.extend(of_best.map(|value| (generation, value)));
-        mean.extend(of_mean.map(|value| (generation, value)));
+        let (of_best, of_mean) = best_and_mean(row);
+        // A gait that breaks rules may have no torque at all, and is not drawn there.
+        let point = |value: Option<f64>| Some((generation, value.filter(|it| it.is_finite())?));
+        best.extend(point(of_best));
+        mean.extend(point(of_mean));
     }
     let last = rows.last().map_or(1.0, |row| row.generation as f64);
     let x = Axis::exactly("generation", 0.0, last);
@@ -134,12 +124,8 @@ fn panel(
     } else {
         Axis::exactly(label, 0.0, 1.0)
     };
-    let curve = |points, index| Curve {
-        points,
-        stroke: stroke(index),
-        marker: None,
-    };
-    Panel::new(title, x, y, vec![curve(mean, 1), curve(best, 0)])
+    let curves = vec![Curve::new(mean, stroke(1)), Curve::new(best, stroke(0))];
+    Panel::new(title, x, y, curves)
 }
 
 /// Cost over the first gait's against duration, a panel per regime; nothing without rows.
@@ -150,63 +136,43 @@ pub fn confirmation(
     rows: &[ConfirmedRecord],
     objective: &str,
 ) -> Result<Option<Figure>, FigureError> {
-    check::confirmed(rows)?;
-    let mut gaits: Vec<&str> = Vec::new();
-    let mut regimes: Vec<&str> = Vec::new();
-    for row in rows {
-        if !gaits.contains(&row.gait.as_str()) {
-            gaits.push(&row.gait);
-        }
-        if !regimes.contains(&row.regime.as_str()) {
-            regimes.push(&row.regime);
-        }
-    }
+    let gaits = selection::each_once(rows.iter().map(|row| row.gait.as_str()), &[]);
+    let regimes = selection::each_once(rows.iter().map(|row| row.regime.as_str()), &[]);
     let [base, others @ ..] = &gaits[..] else {
         return Ok(None);
     };
-    let curve = |regime: &str, gait: &str| -> Vec<Point> {
-        let own = |row: &&ConfirmedRecord| row.regime == regime && row.gait == gait;
-        let rows = rows.iter().filter(own);
-        rows.filter_map(|row| Some((row.duration_s, row.ratio?)))
-            .collect()
-    };
-    let marker = |index: usize| Marker {
-        shape: gait_shape(index),
-        fill: Fill::Full,
-        radius: MARKER_RADIUS,
-    };
+    // The first gait has the first style.
+    let styles = others.iter().zip(1..).map(|(&gait, index)| {
+        let marker = Marker::new(gait_shape(index), Fill::Full, MARKER_RADIUS);
+        (gait, gait_stroke(index), Some(marker))
+    });
+    let styles: Vec<(&str, Stroke, Option<Marker>)> = styles.collect();
     let panels = regimes.iter().map(|regime| {
-        let curves: Vec<Curve> = others
-            .iter()
-            .enumerate()
-            .map(|(index, gait)| Curve {
-                points: curve(regime, gait),
-                stroke: gait_stroke(index + 1),
-                marker: Some(marker(index + 1)),
-            })
-            .collect();
+        let curves = styles.iter().map(|&(gait, stroke, marker)| {
+            let own = |row: &&ConfirmedRecord| row.regime == *regime && row.gait == gait;
+            let points = rows.iter().filter(own);
+            Curve {
+                points: points
+                    .filter_map(|row| Some((row.duration_s, row.ratio?)))
+                    .collect(),
+                stroke,
+                marker,
+            }
+        });
+        let curves: Vec<Curve> = curves.collect();
         let points = || curves.iter().flat_map(|curve| &curve.points);
         let longest = points().map(|point| point.0).fold(0.0, f64::max);
         let x = Axis::exactly("duration of the pull, s", 0.0, 1.05 * longest);
         let values = points().map(|point| point.1).chain([1.0]);
         let y = Axis::covering(&format!("{objective} over {base}'s, –"), values);
         let mut panel = Panel::new(format!("regime {regime}"), x, y, curves);
-        panel
-            .rules
-            .push(Rule::Level(1.0, Stroke::solid(REFERENCE, 1.0)));
+        let one = Rule::Level(1.0, Stroke::solid(REFERENCE, 1.0));
+        panel.rules.push(one);
         panel
     });
-    let key = others.iter().enumerate().map(|(index, gait)| {
-        let (stroke, marker) = (gait_stroke(index + 1), marker(index + 1));
-        KeyEntry::line((*gait).to_owned(), stroke, Some(marker))
-    });
-    let sheet = Sheet {
-        key: key.collect(),
-        bar: None,
-        columns: regimes.len().max(1),
-        frame_height: 260.0,
-        panels: panels.collect(),
-    };
+    let key = styles.iter();
+    let key = key.map(|&(gait, stroke, marker)| KeyEntry::line(gait.to_owned(), stroke, marker));
+    let sheet = Sheet::new(regimes.len().max(1), 260.0, panels).with_key(key);
     let wording = Wording {
         stem: "confirmation".to_owned(),
         number: "",
@@ -219,5 +185,5 @@ pub fn confirmation(
             "Line plots of cost relative to the {base} gait against duration, a panel per regime."
         ),
     };
-    Ok(Some(wording.with(&sheet)))
+    sheet.figure(wording).map(Some)
 }

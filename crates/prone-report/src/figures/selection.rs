@@ -14,10 +14,8 @@ pub(super) fn same_duration(a: f64, b: f64) -> bool {
 
 /// The pulls of `gait` that have rows, by rising duration, the first of each duration.
 pub(super) fn runs_of<'a>(pulls: &'a [PullRecord], gait: &str) -> Vec<&'a PullRecord> {
-    let mut runs: Vec<&PullRecord> = pulls
-        .iter()
-        .filter(|pull| pull.gait == gait && !pull.rows.is_empty())
-        .collect();
+    let own = |pull: &&PullRecord| pull.gait == gait && !pull.rows.is_empty();
+    let mut runs: Vec<&PullRecord> = pulls.iter().filter(own).collect();
     runs.sort_by(|a, b| a.duration_s.total_cmp(&b.duration_s));
     runs.dedup_by(|a, b| same_duration(a.duration_s, b.duration_s));
     runs
@@ -47,20 +45,19 @@ pub(super) fn names(gaits: &[GaitNumbers]) -> Vec<&'static str> {
 }
 
 /// The names in order of appearance, `first` ones foremost, each once.
-pub(super) fn gaits<'a>(names: impl Iterator<Item = &'a str>, first: &[&'a str]) -> Vec<&'a str> {
+pub(crate) fn each_once<'a>(
+    names: impl Iterator<Item = &'a str>,
+    first: &[&'a str],
+) -> Vec<&'a str> {
     let mut found: Vec<&str> = Vec::new();
     for name in names {
         if !found.contains(&name) {
             found.push(name);
         }
     }
+    let place = |name: &&str| first.iter().position(|known| known == name);
     // Stable: the others keep their order.
-    found.sort_by_key(|name| {
-        first
-            .iter()
-            .position(|known| known == name)
-            .unwrap_or(first.len())
-    });
+    found.sort_by_key(|name| place(name).unwrap_or(first.len()));
     found
 }
 
@@ -85,7 +82,7 @@ mod tests {
     fn known_gaits_come_first() {
         let names = ["ours", "optimal", "nominal", "ours"];
         assert_eq!(
-            gaits(names.into_iter(), &["nominal", "optimal"]),
+            each_once(names.into_iter(), &["nominal", "optimal"]),
             ["nominal", "optimal", "ours"]
         );
     }

@@ -7,7 +7,8 @@ use super::font::{self, Weight};
 use super::heat;
 use super::panel::Panel;
 use super::style::{Colour, INK, Marker, SHEET_WIDTH, Stroke, TEXT_SIZE, TITLE_SIZE};
-use super::svg::{Anchor, Canvas, Point, Rect, TextStyle};
+use super::svg::{Anchor, Canvas, Look, Point, Rect, TextStyle};
+use super::{Figure, FigureError, Wording};
 
 /// Paper around everything.
 const MARGIN: f64 = 12.0;
@@ -57,9 +58,62 @@ pub(super) enum Sample {
     Hatched,
 }
 
+/// Beyond this a difference between neighbouring values is lost; no quantity here comes near it.
+const LARGEST: f64 = 1e9;
+
 impl Sheet {
+    /// Panels in columns, without key and bar.
+    pub(super) fn new(
+        columns: usize,
+        frame_height: f64,
+        panels: impl IntoIterator<Item = Panel>,
+    ) -> Self {
+        Self {
+            key: Vec::new(),
+            bar: None,
+            columns,
+            frame_height,
+            panels: panels.into_iter().collect(),
+        }
+    }
+
+    /// The same with a key.
+    pub(super) fn with_key(self, key: impl IntoIterator<Item = KeyEntry>) -> Self {
+        let key = key.into_iter().collect();
+        Self { key, ..self }
+    }
+
+    /// The same with a bar.
+    pub(super) fn with_bar(self, bar: Bar) -> Self {
+        let bar = Some(bar);
+        Self { bar, ..self }
+    }
+
+    /// The figure, unless it holds a number that no axis can show.
+    pub(super) fn figure(&self, wording: Wording) -> Result<Figure, FigureError> {
+        for panel in &self.panels {
+            let points = panel.curves.iter().flat_map(|curve| &curve.points);
+            let cells = panel.cells.iter().flat_map(|cells| &cells.values);
+            let values = points.flat_map(|point| [point.0, point.1]);
+            let mut values = values.chain(cells.filter_map(|value| *value));
+            // Not a number is none of these.
+            if let Some(value) = values.find(|value| !(-LARGEST..=LARGEST).contains(value)) {
+                let place = format!("{}, panel {}", wording.stem, panel.title);
+                return Err(FigureError::Value { place, value });
+            }
+        }
+        Ok(Figure {
+            svg: self.draw(&wording.stem, &wording.title, &wording.alt),
+            stem: wording.stem,
+            number: wording.number,
+            title: wording.title,
+            caption: wording.caption,
+            alt: wording.alt,
+        })
+    }
+
     /// The drawing as SVG.
-    pub(super) fn draw(&self, stem: &str, title: &str, description: &str) -> String {
+    fn draw(&self, stem: &str, title: &str, description: &str) -> String {
         let key = self.key_places();
         let key_lines = key.last().map_or(0.0, |place| place.1 + 1.0);
         let top = MARGIN + TITLE_SIZE + 8.0 + key_lines * KEY_LINE;
@@ -67,7 +121,7 @@ impl Sheet {
         let height = top + rows * (ABOVE + self.frame_height + BELOW) + MARGIN / 2.0;
 
         let mut canvas = Canvas::new(stem, SHEET_WIDTH, height);
-        let heading = TextStyle::new(TITLE_SIZE, Anchor::Start).bold();
+        let heading = TextStyle::plain(TITLE_SIZE, Anchor::Start).looking(Look::Bold);
         canvas.text((MARGIN, MARGIN + TITLE_SIZE * 0.85), title, heading);
         for (entry, place) in self.key.iter().zip(key) {
             let middle = MARGIN + TITLE_SIZE + 8.0 + (place.1 + 0.5) * KEY_LINE;
@@ -76,7 +130,8 @@ impl Sheet {
         self.draw_panels(&mut canvas, top);
         if let Some(bar) = &self.bar {
             let (top, bottom) = (top + ABOVE, height - MARGIN / 2.0 - BELOW);
-            bar.draw(&mut canvas, bar_area(top, bottom));
+            let left = SHEET_WIDTH - BAR_SPACE + 10.0;
+            bar.draw(&mut canvas, Rect::new(left, top, 16.0, bottom - top));
         }
         canvas.finish(title, description)
     }
@@ -97,12 +152,9 @@ impl Sheet {
         let cell = (SHEET_WIDTH - MARGIN / 2.0 - right) / columns as f64;
         for (index, panel) in self.panels.iter().enumerate() {
             let (row, column) = ((index / columns) as f64, (index % columns) as f64);
-            let frame = Rect {
-                left: MARGIN / 2.0 + column * cell + left,
-                top: top + row * (ABOVE + self.frame_height + BELOW) + ABOVE,
-                width: cell - left - BESIDE,
-                height: self.frame_height,
-            };
+            let across = MARGIN / 2.0 + column * cell + left;
+            let down = top + row * (ABOVE + self.frame_height + BELOW) + ABOVE;
+            let frame = Rect::new(across, down, cell - left - BESIDE, self.frame_height);
             panel.draw(canvas, frame, label_gap);
         }
     }
@@ -144,6 +196,7 @@ impl KeyEntry {
     }
 
     fn draw(&self, canvas: &mut Canvas, (left, middle): Point) {
+        let area = Rect::new(left, middle - 7.0, SAMPLE, 14.0);
         match self.sample {
             Sample::Line { stroke, marker } => {
                 canvas.line((left, middle), (left + SAMPLE, middle), stroke);
@@ -151,37 +204,13 @@ impl KeyEntry {
                     canvas.marker((left + SAMPLE / 2.0, middle), marker, stroke.colour);
                 }
             }
-            Sample::Band(colour) => {
-                let area = Rect {
-                    left,
-                    top: middle - 7.0,
-                    width: SAMPLE,
-                    height: 14.0,
-                };
-                canvas.fill(area, colour);
-            }
+            Sample::Band(colour) => canvas.fill(area, colour),
             Sample::Hatched => {
-                let area = Rect {
-                    left,
-                    top: middle - 7.0,
-                    width: SAMPLE,
-                    height: 14.0,
-                };
                 heat::hatch(canvas, area);
                 canvas.outline(area, Stroke::solid(INK, 0.7));
             }
         }
         let at = (left + SAMPLE + 8.0, middle + TEXT_SIZE * 0.35);
-        canvas.text(at, &self.label, TextStyle::new(TEXT_SIZE, Anchor::Start));
-    }
-}
-
-/// Where a bar stands, beside the panels.
-fn bar_area(top: f64, bottom: f64) -> Rect {
-    Rect {
-        left: SHEET_WIDTH - BAR_SPACE + 10.0,
-        top,
-        width: 16.0,
-        height: bottom - top,
+        canvas.text(at, &self.label, TextStyle::plain(TEXT_SIZE, Anchor::Start));
     }
 }

@@ -114,6 +114,16 @@ pub(super) struct Marker {
     pub(super) radius: f64,
 }
 
+impl Marker {
+    pub(super) const fn new(shape: Shape, fill: Fill, radius: f64) -> Self {
+        Self {
+            shape,
+            fill,
+            radius,
+        }
+    }
+}
+
 // Paul Tol's "high-contrast" scheme: three hues that stay apart in grey. Yellow and red are a
 // little darker than his, for thin lines on white paper.
 const BLUE: Colour = Colour(0, 68, 136);

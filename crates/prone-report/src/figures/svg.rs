@@ -2,7 +2,6 @@
 //!
 //! Coordinates are rounded to a hundredth of a unit, so that the bytes are the same everywhere.
 
-use super::font::Weight;
 use super::style::{Colour, FONT_FAMILY, Fill, INK, Marker, PAPER, Shape, Stroke};
 use crate::markup::escaped;
 
@@ -19,6 +18,15 @@ pub(super) struct Rect {
 }
 
 impl Rect {
+    pub(super) const fn new(left: f64, top: f64, width: f64, height: f64) -> Self {
+        Self {
+            left,
+            top,
+            width,
+            height,
+        }
+    }
+
     pub(super) fn right(&self) -> f64 {
         self.left + self.width
     }
@@ -36,18 +44,14 @@ pub(super) enum Anchor {
     End,
 }
 
-/// Direction a text runs in.
+/// How a text stands out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Direction {
-    Right,
-    Up,
-}
-
-/// What surrounds the letters of a text.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Edge {
+pub(super) enum Look {
     Plain,
-    /// A rim of paper, so that a line behind does not run into the letters.
+    Bold,
+    /// Running up.
+    Upward,
+    /// With a rim of paper, so that a line behind does not run into the letters.
     Halo,
 }
 
@@ -55,46 +59,23 @@ pub(super) enum Edge {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct TextStyle {
     pub(super) size: f64,
-    pub(super) weight: Weight,
     pub(super) anchor: Anchor,
-    pub(super) direction: Direction,
-    pub(super) edge: Edge,
+    pub(super) look: Look,
 }
 
 impl TextStyle {
-    /// Regular text running right.
-    pub(super) fn new(size: f64, anchor: Anchor) -> Self {
+    /// A text without a special look.
+    pub(super) const fn plain(size: f64, anchor: Anchor) -> Self {
         Self {
             size,
-            weight: Weight::Regular,
             anchor,
-            direction: Direction::Right,
-            edge: Edge::Plain,
+            look: Look::Plain,
         }
     }
 
-    /// The same in bold.
-    pub(super) fn bold(self) -> Self {
-        Self {
-            weight: Weight::Bold,
-            ..self
-        }
-    }
-
-    /// The same with a rim of paper.
-    pub(super) fn with_halo(self) -> Self {
-        Self {
-            edge: Edge::Halo,
-            ..self
-        }
-    }
-
-    /// The same running up.
-    pub(super) fn upward(self) -> Self {
-        Self {
-            direction: Direction::Up,
-            ..self
-        }
+    /// The same with another look.
+    pub(super) const fn looking(self, look: Look) -> Self {
+        Self { look, ..self }
     }
 }
 
@@ -115,15 +96,7 @@ impl Canvas {
             body: String::new(),
             clips: 0,
         };
-        canvas.fill(
-            Rect {
-                left: 0.0,
-                top: 0.0,
-                width,
-                height,
-            },
-            PAPER,
-        );
+        canvas.fill(Rect::new(0.0, 0.0, width, height), PAPER);
         canvas
     }
 
@@ -208,23 +181,17 @@ impl Canvas {
             Anchor::Middle => "middle",
             Anchor::End => "end",
         };
-        let weight = match style.weight {
-            Weight::Regular => "",
-            Weight::Bold => " font-weight=\"bold\"",
-        };
-        let turn = match style.direction {
-            Direction::Right => String::new(),
-            Direction::Up => format!(" transform=\"rotate(-90 {x} {y})\""),
-        };
-        let edge = match style.edge {
-            Edge::Plain => String::new(),
-            Edge::Halo => format!(
+        let look = match style.look {
+            Look::Plain => String::new(),
+            Look::Bold => " font-weight=\"bold\"".to_owned(),
+            Look::Upward => format!(" transform=\"rotate(-90 {x} {y})\""),
+            Look::Halo => format!(
                 " paint-order=\"stroke\" stroke-linejoin=\"round\"{}",
                 line_style(Stroke::solid(PAPER, 4.0))
             ),
         };
         self.element(&format!(
-            "<text x=\"{x}\" y=\"{y}\" font-size=\"{}\" text-anchor=\"{anchor}\"{weight}{turn}{edge}>{}</text>",
+            "<text x=\"{x}\" y=\"{y}\" font-size=\"{}\" text-anchor=\"{anchor}\"{look}>{}</text>",
             number(style.size),
             escaped(text)
         ));
@@ -272,24 +239,30 @@ impl Canvas {
 /// Corners of a marker; a circle has none.
 fn corners(at: Point, marker: Marker) -> Option<Vec<Point>> {
     let r = marker.radius;
-    let around = |offsets: &[Point]| offsets.iter().map(|o| (at.0 + o.0, at.1 + o.1)).collect();
-    match marker.shape {
-        Shape::Circle => None,
-        // Sides chosen so that all shapes look equally large.
-        Shape::Square => {
-            let a = 0.9 * r;
-            Some(around(&[(-a, -a), (a, -a), (a, a), (-a, a)]))
-        }
-        Shape::Triangle => Some(around(&[
-            (0.0, -1.2 * r),
-            (1.1 * r, 0.8 * r),
-            (-1.1 * r, 0.8 * r),
-        ])),
-        Shape::Diamond => {
-            let a = 1.25 * r;
-            Some(around(&[(0.0, -a), (a, 0.0), (0.0, a), (-a, 0.0)]))
-        }
-    }
+    // Sides chosen so that all shapes look equally large.
+    let (square, diamond) = (0.9, 1.25);
+    let offsets: &[Point] = match marker.shape {
+        Shape::Circle => return None,
+        Shape::Square => &[
+            (-square, -square),
+            (square, -square),
+            (square, square),
+            (-square, square),
+        ],
+        Shape::Triangle => &[(0.0, -1.2), (1.1, 0.8), (-1.1, 0.8)],
+        Shape::Diamond => &[
+            (0.0, -diamond),
+            (diamond, 0.0),
+            (0.0, diamond),
+            (-diamond, 0.0),
+        ],
+    };
+    let corners = offsets.iter();
+    Some(
+        corners
+            .map(|offset| (at.0 + r * offset.0, at.1 + r * offset.1))
+            .collect(),
+    )
 }
 
 fn rectangle(area: Rect) -> String {

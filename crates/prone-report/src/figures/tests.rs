@@ -13,24 +13,20 @@ const NUMBERED: [GaitNumbers; 2] = [
         gait: "nominal",
         chain: "26",
         frames: "27",
-        torque: torque::Numbers {
-            by_duration: "36",
-            time: "38",
-            transient: "40",
-            cycle: "42",
-        },
+        torque_by_duration: "36",
+        torque_over_time: "38",
+        transient: "40",
+        torque_over_cycle: "42",
         published_divergence_s: 0.25,
     },
     GaitNumbers {
         gait: "optimal",
         chain: "34",
         frames: "35",
-        torque: torque::Numbers {
-            by_duration: "37",
-            time: "39",
-            transient: "41",
-            cycle: "43",
-        },
+        torque_by_duration: "37",
+        torque_over_time: "39",
+        transient: "41",
+        torque_over_cycle: "43",
         published_divergence_s: 0.175,
     },
 ];
@@ -301,13 +297,15 @@ fn numbers_no_axis_can_show_are_named() {
     let error = drawn(&[], &[broken], &[]).unwrap_err().to_string();
     assert_eq!(
         error,
-        "knee torque of nominal, 5 s, row 7: NaN cannot be drawn"
+        "fig-36-nominal-torque-by-duration, panel 5 s: NaN cannot be drawn"
     );
-    let timeless = PullRecord {
-        duration_s: 0.0,
-        ..pull("nominal", 5.0)
-    };
-    assert!(drawn(&[], &[timeless], &[]).is_err());
+    let mut huge = chain("nominal");
+    huge.samples[3].parameters_deg[0] = 2e9;
+    let error = drawn(&[huge], &[], &[]).unwrap_err().to_string();
+    assert_eq!(
+        error,
+        "fig-25-gait-parameters, panel θ3 (knee): 2000000000 cannot be drawn"
+    );
 }
 
 #[test]

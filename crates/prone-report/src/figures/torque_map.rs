@@ -8,7 +8,7 @@ use super::heat::Cells;
 use super::panel::Panel;
 use super::sheet::{KeyEntry, Sample, Sheet};
 use super::torque::TORQUE_LABEL;
-use super::{Figure, FigureError, Wording, check};
+use super::{Figure, FigureError, Wording};
 use prone_record::pulls::JOINTS;
 
 /// One drawing per slice, all on one colour scale; `slices` are nodes of θ3, and those that the map
@@ -17,41 +17,33 @@ use prone_record::pulls::JOINTS;
 /// # Errors
 /// If the map holds a number that no axis can show.
 pub fn figures(map: &TorqueMap, slices: &[usize]) -> Result<Vec<Figure>, FigureError> {
-    check::map(map)?;
     let values = map.rows().iter().filter_map(|row| match row {
         Row::Torques(torques) => Some(torques.to_array()),
         Row::Masked { .. } => None,
     });
     let scale = HeatScale::covering(TORQUE_LABEL, values.flatten());
-    let known = slices
-        .iter()
-        .filter(|slice| **slice < map.grid().knee.len());
-    Ok(known.map(|slice| figure(map, *slice, &scale)).collect())
+    let slices = slices.iter();
+    let known = slices.filter(|slice| **slice < map.grid().knee.len());
+    known.map(|slice| figure(map, *slice, &scale)).collect()
 }
 
-fn figure(map: &TorqueMap, slice: usize, scale: &HeatScale) -> Figure {
+fn figure(map: &TorqueMap, slice: usize, scale: &HeatScale) -> Result<Figure, FigureError> {
     let grid = map.grid();
     let theta3_deg = grid.knee.value(slice).to_degrees();
     let rows: Vec<Row> = (0..grid.upper_arm.len())
         .flat_map(|arm| (0..grid.hip.len()).map(move |hip| grid.index(slice, hip, arm)))
         .map(|index| map.rows()[index])
         .collect();
-    let masked = rows
-        .iter()
-        .filter(|row| matches!(row, Row::Masked { .. }))
-        .count();
+    let is_masked = |row: &&Row| matches!(row, Row::Masked { .. });
+    let masked = rows.iter().filter(is_masked).count();
     let key = (masked > 0).then(|| KeyEntry {
         label: format!("no torques: {masked} of {} rows are masked", rows.len()),
         sample: Sample::Hatched,
     });
     let panels = (0..JOINTS.len()).map(|joint| panel(map, &rows, joint, scale));
-    let sheet = Sheet {
-        panels: panels.collect(),
-        key: key.into_iter().collect(),
-        bar: Some(Bar::Scale(scale.clone())),
-        columns: 2,
-        frame_height: 270.0,
-    };
+    let sheet = Sheet::new(2, 270.0, panels)
+        .with_key(key)
+        .with_bar(Bar::Scale(scale.clone()));
     // Of a node that is meant to be a multiple of a step, two decimals are enough.
     let shown = format!("{theta3_deg:.2}").replace("-0.00", "0.00");
     let shown = shown.trim_end_matches('0').trim_end_matches('.');
@@ -69,7 +61,7 @@ fn figure(map: &TorqueMap, slice: usize, scale: &HeatScale) -> Figure {
              alpha at theta 3 of {shown} degrees."
         ),
     };
-    wording.with(&sheet)
+    sheet.figure(wording)
 }
 
 fn panel(map: &TorqueMap, rows: &[Row], joint: usize, scale: &HeatScale) -> Panel {

@@ -5,13 +5,14 @@
 
 use serde::Serialize;
 
-use super::crawl_run::CrawlRun;
+use super::Run;
+use crate::view::record::not_simulated;
 use prone_record::crawl_summary::JointSummary;
 
 /// A joint with a smaller share of the heat is not listed by itself.
 const LISTED_HEAT: f64 = 0.01;
 
-/// The report card of one crawl, ours, in simulation.
+/// The report card of one crawl.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Card {
     /// The record's folder, as it was named.
@@ -66,6 +67,12 @@ pub struct Card {
     pub joints: Vec<JointCard>,
     /// Share of the heat of all other joints.
     pub other_joints_heat_share: f64,
+    /// The contact regime of a simulation, in words.
+    #[serde(skip)]
+    pub(super) regime: Option<String>,
+    /// Where it was recorded, if it was not simulated.
+    #[serde(skip)]
+    pub(super) not_simulated: Option<String>,
 }
 
 /// One joint. Torque is actuator torque, after the effort limit.
@@ -90,17 +97,24 @@ pub struct JointCard {
 }
 
 impl Card {
-    /// Of a crawl that left figures.
-    pub(super) fn from_crawl(crawl: &CrawlRun) -> Option<Self> {
-        let summary = crawl.summary.as_ref()?;
-        let standing = crawl.info.robot.standing_height_mm;
-        let options = crawl.info.options.crawl();
+    /// The card of a crawl that left figures.
+    pub(super) fn from_run(run: &Run) -> Option<Self> {
+        let record = run.record()?;
+        let summary = record.summary.as_ref()?;
+        let standing = record.info.robot.standing_height_mm;
+        let options = record.info.options.crawl();
+        let regime = record.info.origin.regime().map(|regime| {
+            format!(
+                "{} (friction {}, torque limits: {}, joint stops: {})",
+                regime.name, regime.friction, regime.effort_limit, regime.stops
+            )
+        });
         let (highest_part, highest_mm) = summary.top_mm.highest_part();
         let metres = Some(summary.path_mm / 1e3).filter(|metres| *metres > 0.0);
         let straight = summary.yaw_deg.abs() < STRAIGHT_DEG;
         let (joints, other_joints_heat_share) = joints(&summary.joints, summary.heat_s);
         Some(Self {
-            run: crawl.folder.name.clone(),
+            run: run.folder.name.clone(),
             gait: summary.gait.clone(),
             robot: summary.robot.clone(),
             scene: summary.scene.clone(),
@@ -132,6 +146,8 @@ impl Card {
             yaw_deg_per_m: metres.map(|metres| summary.yaw_deg / metres),
             joints,
             other_joints_heat_share,
+            regime,
+            not_simulated: not_simulated(&record.info.origin),
         })
     }
 }

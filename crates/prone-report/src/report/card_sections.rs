@@ -3,14 +3,18 @@
 use maud::{Markup, html};
 
 use super::card::Card;
-use super::rivals::RIVALS;
+use super::html_table::{optional, percent};
+use super::publication::Publication;
+use super::rivals::{HEADS, RIVALS};
+use crate::figures::each_once;
 
 /// Cards of all crawls in one table, joints below; nothing without crawls.
-pub(super) fn all(cards: &[Card]) -> Markup {
+pub(super) fn all(cards: &[Card], publication: &dyn Publication) -> Markup {
     html! {
         @if !cards.is_empty() {
             section {
                 h2 { "Report card" }
+                (origins(cards, publication))
                 (figures(cards))
                 (joints(cards))
                 (rivals())
@@ -19,111 +23,91 @@ pub(super) fn all(cards: &[Card]) -> Markup {
     }
 }
 
-/// One line of the table: what it says, and its value for a card.
-struct Line {
-    label: &'static str,
-    of: fn(&Card) -> String,
-}
+/// A line of the table: what it says, and its value for a card.
+type Line = (&'static str, fn(&Card) -> String);
 
 const LINES: [Line; 15] = [
-    Line {
-        label: "path, time",
-        of: |card| {
-            let cycles = card.cycles;
-            format!(
-                "{:.0} mm, {:.1} s, {cycles} cycles",
-                card.path_mm, card.time_s
-            )
-        },
-    },
-    Line {
-        label: "speed",
-        of: |card| format!("{:.1} mm/s", card.speed_mm_s),
-    },
-    Line {
-        label: "speed in standing heights",
-        of: |card| {
-            optional(card.standing_heights_per_s, |value| {
-                format!("{value:.3} /s")
-            })
-        },
-    },
-    Line {
-        label: "stride efficiency",
-        of: |card| {
-            let pull = optional(card.pull_efficiency, percent);
-            let cycle = optional(card.stride_efficiency, percent);
-            format!("pulls {pull}, whole cycles {cycle}")
-        },
-    },
-    Line {
-        label: "lowest passage",
-        of: |card| format!("{:.0} mm ({})", card.lowest_passage_mm, card.highest_part),
-    },
-    Line {
-        label: "lowest passage over standing height",
-        of: |card| optional(card.passage_over_standing, |value| format!("{value:.2}")),
-    },
-    Line {
-        label: "met plates or panels",
-        of: |card| match card.plate_contacts {
-            0 => "never".to_owned(),
-            1 => "once".to_owned(),
-            times => format!("{times} times"),
-        },
-    },
-    Line {
-        label: "cost of transport, mechanical",
-        of: |card| {
-            optional(card.cost_of_transport_mechanical, |value| {
-                format!("{value:.2}")
-            })
-        },
-    },
-    Line {
-        label: "cost of transport, electrical (estimated)",
-        of: |card| {
-            let estimated = card.cost_of_transport_electrical_estimated;
-            optional(estimated, |value| format!("at least {value:.1}"))
-        },
-    },
-    Line {
-        label: "heat of all motors per second",
-        of: |card| format!("{:.2}", card.heat_mean),
-    },
-    Line {
-        label: "heat per metre",
-        of: |card| optional(card.heat_per_metre_s, |value| format!("{value:.0} s/m")),
-    },
-    Line {
-        label: "temperature",
-        of: |_| "not predicted".to_owned(),
-    },
-    Line {
-        label: "drift",
-        of: |card| {
-            optional(card.drift_mm_per_m, |value| {
-                format!("{} mm/m", signed(value))
-            })
-        },
-    },
-    Line {
-        label: "change of heading",
-        of: |card| optional(card.yaw_deg_per_m, |value| format!("{}°/m", signed(value))),
-    },
-    Line {
-        label: "steering; joints off by",
-        of: |card| format!("{}; {}°", card.steering, card.joint_offset_deg),
-    },
+    ("path, time", |card| {
+        let (path, time, cycles) = (card.path_mm, card.time_s, card.cycles);
+        format!("{path:.0} mm, {time:.1} s, {cycles} cycles")
+    }),
+    ("speed", |card| format!("{:.1} mm/s", card.speed_mm_s)),
+    ("speed in standing heights", |card| {
+        optional(card.standing_heights_per_s, |value| {
+            format!("{value:.3} /s")
+        })
+    }),
+    ("stride efficiency", |card| {
+        let pull = optional(card.pull_efficiency, percent);
+        let cycle = optional(card.stride_efficiency, percent);
+        format!("pulls {pull}, whole cycles {cycle}")
+    }),
+    ("lowest passage", |card| {
+        format!("{:.0} mm ({})", card.lowest_passage_mm, card.highest_part)
+    }),
+    ("lowest passage over standing height", |card| {
+        optional(card.passage_over_standing, |value| format!("{value:.2}"))
+    }),
+    ("met plates or panels", |card| match card.plate_contacts {
+        0 => "never".to_owned(),
+        1 => "once".to_owned(),
+        times => format!("{times} times"),
+    }),
+    ("cost of transport, mechanical", |card| {
+        let mechanical = card.cost_of_transport_mechanical;
+        optional(mechanical, |value| format!("{value:.2}"))
+    }),
+    ("cost of transport, electrical (estimated)", |card| {
+        let estimated = card.cost_of_transport_electrical_estimated;
+        optional(estimated, |value| format!("at least {value:.1}"))
+    }),
+    ("heat of all motors per second", |card| {
+        format!("{:.2}", card.heat_mean)
+    }),
+    ("heat per metre", |card| {
+        optional(card.heat_per_metre_s, |value| format!("{value:.0} s/m"))
+    }),
+    ("temperature", |_| "not predicted".to_owned()),
+    ("drift", |card| {
+        optional(card.drift_mm_per_m, |value| {
+            format!("{} mm/m", signed(value))
+        })
+    }),
+    ("change of heading", |card| {
+        optional(card.yaw_deg_per_m, |value| format!("{}°/m", signed(value)))
+    }),
+    ("steering; joints off by", |card| {
+        format!("{}; {}°", card.steering, card.joint_offset_deg)
+    }),
 ];
 
-fn figures(cards: &[Card]) -> Markup {
+/// Whether every crawl was simulated.
+fn all_simulated(cards: &[Card]) -> bool {
+    cards.iter().all(|card| card.not_simulated.is_none())
+}
+
+/// Where the crawls come from, as their records say.
+fn origins(cards: &[Card], publication: &dyn Publication) -> Markup {
+    let regimes = cards.iter().filter_map(|card| card.regime.as_deref());
+    let regimes = each_once(regimes, &[]);
     html! {
         p {
-            "Ours, by simulation in the contact regime locomotion (engine's contacts, the \
-             manufacturer's effort and joint limits on); every line is a figure of the crawl's record, or one over \
-             another. No robot crawled them; the published one made 67 mm a cycle with the original's gait."
+            @if !regimes.is_empty() {
+                "Ours, by simulation in the contact regime " (regimes.join(", and in ")) ". "
+            }
+            @for card in cards {
+                @if let Some(from) = &card.not_simulated { (card.run) " was not simulated: " (from) ". " }
+            }
+            "Every line is a figure of the crawl's record, or one over another."
+            @if all_simulated(cards) { " No robot crawled them." }
+            @if let Some(crawled) = publication.crawled() { " " (crawled) }
         }
+    }
+}
+
+fn figures(cards: &[Card]) -> Markup {
+    let simulated = all_simulated(cards);
+    html! {
         div.scroll { table {
             caption {
                 "Path: sum of the cycles' advances, each along its own heading; all rates are over it. \
@@ -135,16 +119,17 @@ fn figures(cards: &[Card]) -> Markup {
                 " and a lower bound: gears and drives lose nothing in it, and braking gives nothing back. Heat: \
                  Σ (τ / nominal torque)² over all motors, τ actuator torque; 1 is one motor at its \
                  continuous rating. No thermal model of the motors is in the robot's data, so no \
-                 temperature is given. Drift and heading: positive to the left; a symmetric model \
-                 without joint errors hides both."
+                 temperature is given. Drift and heading: positive to the left"
+                @if simulated { "; a symmetric model without joint errors hides both" }
+                "."
             }
             thead { tr {
-                th scope="col" { "ours, simulated" }
+                th scope="col" { @if simulated { "ours, simulated" } @else { "crawl" } }
                 @for card in cards { th scope="col" { (card.gait) br; small { (card.scene) } br; small.run { (card.run) } } }
             } }
-            tbody { @for line in &LINES { tr {
-                th scope="row" { (line.label) }
-                @for card in cards { td { ((line.of)(card)) } }
+            tbody { @for (label, value) in &LINES { tr {
+                th scope="row" { (label) }
+                @for card in cards { td { (value(card)) } }
             } } }
         } }
     }
@@ -165,8 +150,9 @@ fn joints(cards: &[Card]) -> Markup {
                 " Actuator torque after the effort limit, over the motor's continuous torque at the \
                  joint, lossless gears (real ones ask more of the motor): largest, and root mean square, whose square is the heat of \
                  a winding in units of its rating. Heat: share of all motors'. At the limit: share of the \
-                 time in which the servo asked for more than the manufacturer's effort limit. Ours, \
-                 simulated; the warmest of the first crawl first; – is less than 1 % of the heat."
+                 time in which the servo asked for more than the manufacturer's effort limit. "
+                @if all_simulated(cards) { "Ours, simulated; the" } @else { "The" }
+                " warmest of the first crawl first; – is less than 1 % of the heat."
             }
             thead {
                 tr {
@@ -214,27 +200,13 @@ fn rivals() -> Markup {
                  differ: a speed that is commanded to a policy is not one that was reached. None \
                  reports clearance, cost of transport, torque margin and heat together."
             }
-            thead { tr { @for head in [
-                "theirs", "robot", "speed", "standing heights per s", "lowest passage / standing height",
-                "besides", "source",
-            ] { th scope="col" { (head) } } } }
-            tbody { @for rival in &RIVALS { tr {
-                th scope="row" { (rival.system) }
-                @for cell in [
-                    rival.robot, rival.speed, rival.standing_heights_per_s, rival.passage, rival.besides,
-                    rival.source,
-                ] { td { (cell) } }
+            thead { tr { @for head in HEADS { th scope="col" { (head) } } } }
+            tbody { @for [system, others @ ..] in &RIVALS { tr {
+                th scope="row" { (system) }
+                @for cell in others { td { (cell) } }
             } } }
         } }
     }
-}
-
-fn optional(value: Option<f64>, show: impl Fn(f64) -> String) -> String {
-    value.map_or_else(|| "–".to_owned(), show)
-}
-
-fn percent(share: f64) -> String {
-    format!("{:.0} %", share * 100.0)
 }
 
 /// With its sign, but zero without.

@@ -1,7 +1,7 @@
 //! Reading `chains.csv`: planned chains.
 
 use super::ReportError;
-use super::cut_table::Cut;
+use super::cut_table::Line;
 use super::folder::Folder;
 use prone_record::pulls::{CHAIN_POINTS, ChainRecord, ChainSample};
 
@@ -13,17 +13,17 @@ use prone_record::pulls::{CHAIN_POINTS, ChainRecord, ChainSample};
 pub fn read(
     folder: &Folder,
     expected: Option<&[&str]>,
-    cuts: &mut Vec<Cut>,
+    cuts: &mut Vec<String>,
 ) -> Result<Vec<ChainRecord>, ReportError> {
-    let mut table = folder.table("chains.csv")?;
+    let table = folder.table("chains.csv")?;
     let [gait, s, knee, hip, arm] =
         table.columns(["gait", "s", "theta3_deg", "theta4_deg", "alpha_deg"])?;
     let mut points = [[s; 2]; 6];
     for (columns, point) in points.iter_mut().zip(CHAIN_POINTS) {
         let [x, z] = [format!("{point}_x_mm"), format!("{point}_z_mm")];
-        *columns = table.columns([x.as_str(), z.as_str()])?;
+        *columns = table.columns([x, z])?;
     }
-    let samples = table.rows(|line| {
+    let read = |line: &Line<'_>| {
         let mut points_mm = [(0.0, 0.0); 6];
         for (point, columns) in points_mm.iter_mut().zip(points) {
             *point = line.numbers(columns)?.into();
@@ -34,27 +34,18 @@ pub fn read(
             points_mm,
         };
         Some((line.text(gait).to_owned(), sample))
+    };
+    let samples = table.all_rows(cuts, read, |samples| {
+        // The last sample of each gait is at the end of the phase.
+        let mut gaits = samples.chunk_by(|(a, _), (b, _)| a == b);
+        let known = |gait: &&str| samples.iter().any(|(known, _)| known == gait);
+        gaits.all(|own| own.last().is_some_and(|(_, last)| last.s >= 1.0))
+            && expected.is_none_or(|gaits| gaits.iter().all(known))
     });
-    let mut chains: Vec<ChainRecord> = Vec::new();
-    for (gait, sample) in samples {
-        match chains.last_mut() {
-            Some(chain) if chain.gait == gait => chain.samples.push(sample),
-            _ => chains.push(ChainRecord {
-                gait,
-                samples: vec![sample],
-            }),
-        }
-    }
-    let whole = chains
-        .iter()
-        .all(|chain| chain.samples.last().is_some_and(|last| last.s >= 1.0));
-    let all = expected.is_none_or(|gaits| {
-        let known = |gait: &&str| chains.iter().any(|chain| chain.gait == *gait);
-        gaits.iter().all(known)
+    let gaits = samples.chunk_by(|(a, _), (b, _)| a == b);
+    let chains = gaits.map(|own| ChainRecord {
+        gait: own[0].0.clone(),
+        samples: own.iter().map(|(_, sample)| *sample).collect(),
     });
-    if !whole || !all {
-        table.end_early();
-    }
-    cuts.extend(table.cut());
-    Ok(chains)
+    Ok(chains.collect())
 }

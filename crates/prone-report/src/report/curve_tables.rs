@@ -2,22 +2,22 @@
 
 use maud::{Markup, html};
 
+use super::html_table::table;
 use prone_record::curves_info::{CurveInfo, CurvesInfo};
+use prone_record::tables::number;
 
 /// The parameters, in the order of [`CurvesInfo::to_array`].
 pub const NAMES: [&str; 3] = ["θ3", "θ4", "α"];
 
 /// What a gait that was found is made of.
-pub fn found(gait: &str, run: &str, curves: &CurvesInfo) -> Markup {
-    html! {
-        div.scroll { table {
-            caption { strong { "Gait parameters, " (gait) "." } " Ours, found by the search in " (run) "; rad, s from 0 to 1." }
-            thead { tr { th scope="col" { "parameter" } th scope="col" { "curve" } } }
-            tbody { @for (name, curve) in NAMES.into_iter().zip(curves.to_array()) {
-                tr { th scope="row" { (name) } td { (numbers(curve)) } }
-            } }
-        } }
-    }
+pub(super) fn found(gait: &str, run: &str, curves: &CurvesInfo) -> Markup {
+    let caption = html! {
+        strong { "Gait parameters, " (gait) "." } " Ours, found by the search in " (run) "; rad, s from 0 to 1."
+    };
+    let rows = NAMES.into_iter().zip(curves.to_array());
+    let rows =
+        rows.map(|(name, curve)| html! { th scope="row" { (name) } td { (numbers(curve)) } });
+    table(caption, &["parameter", "curve"], rows)
 }
 
 /// c₃ to c₀ of a polynomial of degree 3 or less.
@@ -39,35 +39,27 @@ pub fn numbers(curve: &CurveInfo) -> String {
     };
     match curve {
         CurveInfo::Polynomial { coefficients_rad } => {
-            format!(
-                "polynomial, highest power first: {}",
-                list(coefficients_rad)
-            )
+            let coefficients = list(coefficients_rad);
+            format!("polynomial, highest power first: {coefficients}")
         }
         CurveInfo::BSpline {
             degree,
             control_rad,
         } => format!("B-spline of degree {degree} through {}", list(control_rad)),
         CurveInfo::Through { points } => {
-            let points: Vec<String> = points
-                .iter()
-                .map(|(s, value)| format!("{} at {s:.3}", coefficient(*value)))
-                .collect();
-            format!("cubic through {}", points.join(", "))
+            let points = points.iter();
+            let points = points.map(|(s, value)| format!("{} at {s:.3}", coefficient(*value)));
+            format!("cubic through {}", points.collect::<Vec<_>>().join(", "))
         }
     }
 }
 
 /// A coefficient, rad.
 pub fn coefficient(value: f64) -> String {
-    sign(&format!("{value:.5}"))
+    with_minus(value, 5)
 }
 
-/// The minus sign, as wide as a plus, and none before zero.
-pub fn sign(text: &str) -> String {
-    match text.strip_prefix('-') {
-        Some(rest) if rest.bytes().all(|byte| matches!(byte, b'0' | b'.')) => rest.to_owned(),
-        Some(rest) => format!("−{rest}"),
-        None => text.to_owned(),
-    }
+/// A number with the minus sign, which is as wide as a plus, and none before zero.
+pub fn with_minus(value: f64, decimals: usize) -> String {
+    number(value, decimals).replace('-', "−")
 }

@@ -2,32 +2,16 @@
 
 use std::path::PathBuf;
 
+use csv::StringRecord;
 use prone_record::broken_table::BrokenTable;
 
 use super::ReportError;
 
-/// Where a table can be used no further.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{file}, line {line}: {damage}")]
-pub struct Cut {
-    /// Its path, beginning with the folder as it was named.
-    pub file: String,
-    /// The first line that cannot be used, from 1.
-    pub line: usize,
-    /// What is wrong there.
-    pub damage: Damage,
-}
+/// Why a line cannot be used.
+const NOT_WHOLE: &str = "the line is not whole; what stands before it is shown";
 
-/// What is wrong with a table.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-pub enum Damage {
-    /// The line is not whole, or holds what is no value of this table.
-    #[error("the line is not whole; what stands before it is shown")]
-    Line,
-    /// Every line is whole, but some are missing at the end.
-    #[error("rows are missing from here on; what stands before is shown")]
-    Missing,
-}
+/// What is said where every line is whole, but some are missing at the end.
+const MISSING: &str = "rows are missing from here on; what stands before is shown";
 
 /// A table up to its first incomplete line.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,13 +20,10 @@ pub struct CutTable {
     /// How the file is called in the report.
     name: String,
     content: BrokenTable,
-    cut: Option<(usize, Damage)>,
 }
 
-/// A line, read by the names of its columns.
-pub struct Line<'a> {
-    cells: &'a csv::StringRecord,
-}
+/// A line, read by the places of its columns.
+pub struct Line<'a>(&'a StringRecord);
 
 /// A cell that is neither empty nor a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,76 +36,73 @@ pub struct Column(usize);
 impl CutTable {
     /// Splits a text into lines and cells.
     pub fn read(path: PathBuf, name: String, text: &str) -> Self {
-        let content = BrokenTable::new(text);
         Self {
             path,
             name,
-            cut: content.broken().map(|(line, _)| (line, Damage::Line)),
-            content,
+            content: BrokenTable::new(text),
         }
-    }
-
-    /// Where a column is.
-    ///
-    /// # Errors
-    /// [`ReportError::Column`].
-    pub fn column(&self, column: &str) -> Result<Column, ReportError> {
-        self.content
-            .column(column)
-            .map(Column)
-            .ok_or_else(|| ReportError::Column {
-                file: self.path.clone(),
-                column: column.to_owned(),
-            })
     }
 
     /// Where some columns are.
     ///
     /// # Errors
     /// [`ReportError::Column`].
-    pub fn columns<const N: usize>(&self, columns: [&str; N]) -> Result<[Column; N], ReportError> {
+    pub fn columns<const N: usize>(
+        &self,
+        columns: [impl AsRef<str>; N],
+    ) -> Result<[Column; N], ReportError> {
         let mut found = [Column(0); N];
         for (found, column) in found.iter_mut().zip(columns) {
-            *found = self.column(column)?;
+            let column = column.as_ref();
+            let place = self.content.column(column);
+            *found = Column(place.ok_or_else(|| ReportError::Column {
+                file: self.path.clone(),
+                column: column.to_owned(),
+            })?);
         }
         Ok(found)
     }
 
-    /// Every line that `read` takes, up to the first that it does not; the table ends there.
-    pub fn rows<T>(&mut self, mut read: impl FnMut(&Line<'_>) -> Option<T>) -> Vec<T> {
+    /// Every line that `read` takes, up to the first that it does not; the table ends there, and `cuts`
+    /// gets a sentence that says so.
+    pub fn rows<T>(
+        &self,
+        cuts: &mut Vec<String>,
+        read: impl FnMut(&Line<'_>) -> Option<T>,
+    ) -> Vec<T> {
+        self.all_rows(cuts, read, |_| true)
+    }
+
+    /// The same of a table that is not whole, although every line is, unless its rows are `all`.
+    pub fn all_rows<T>(
+        &self,
+        cuts: &mut Vec<String>,
+        mut read: impl FnMut(&Line<'_>) -> Option<T>,
+        all: impl Fn(&[T]) -> bool,
+    ) -> Vec<T> {
+        let mut cut = self.content.broken().map(|(line, _)| (line, NOT_WHOLE));
         let mut rows = Vec::new();
         for (line, cells) in self.content.lines() {
-            let Some(row) = read(&Line { cells }) else {
-                self.cut = Some((*line, Damage::Line));
+            let Some(row) = read(&Line(cells)) else {
+                cut = Some((*line, NOT_WHOLE));
                 break;
             };
             rows.push(row);
         }
-        rows
-    }
-
-    /// Says that the table is not whole although every line is, because something is missing.
-    pub fn end_early(&mut self) {
-        if self.cut.is_none() {
+        if cut.is_none() && !all(&rows) {
             let line = self.content.lines().last().map_or(2, |(line, _)| line + 1);
-            self.cut = Some((line, Damage::Missing));
+            cut = Some((line, MISSING));
         }
-    }
-
-    /// Where it breaks off, if it does.
-    pub fn cut(&self) -> Option<Cut> {
-        self.cut.map(|(line, damage)| Cut {
-            file: self.name.clone(),
-            line,
-            damage,
-        })
+        let name = &self.name;
+        cuts.extend(cut.map(|(line, damage)| format!("{name}, line {line}: {damage}")));
+        rows
     }
 }
 
 impl<'a> Line<'a> {
     /// What stands in a column.
     pub fn text(&self, Column(column): Column) -> &'a str {
-        &self.cells[column]
+        &self.0[column]
     }
 
     /// A number that is not infinite.
@@ -168,11 +146,20 @@ mod tests {
         CutTable::read("a.csv".into(), "a.csv".to_owned(), text)
     }
 
+    /// The numbers of a column, and the line in which the table breaks off.
     fn numbers(text: &str) -> (Vec<f64>, Option<usize>) {
-        let mut table = table(text);
-        let column = table.column("b").unwrap();
-        let rows = table.rows(|line| line.number(column));
-        (rows, table.cut().map(|cut| cut.line))
+        let mut cuts = Vec::new();
+        let table = table(text);
+        let [column] = table.columns(["b"]).unwrap();
+        let rows = table.rows(&mut cuts, |line| line.number(column));
+        let line = cuts.first().map(|cut| {
+            let line = cut.strip_prefix("a.csv, line ").unwrap();
+            line.strip_suffix(&format!(": {NOT_WHOLE}"))
+                .unwrap()
+                .parse()
+                .unwrap()
+        });
+        (rows, line)
     }
 
     #[test]
@@ -188,15 +175,17 @@ mod tests {
     #[test]
     fn a_column_that_is_not_there_is_named() {
         for text in ["", "a,c\n1,2\n"] {
-            let error = table(text).column("b").unwrap_err();
+            let error = table(text).columns(["b"]).unwrap_err();
             assert_eq!(error.to_string(), "a.csv has no column b");
         }
     }
 
     #[test]
     fn an_end_that_came_early_is_after_the_last_line() {
-        let mut early = table("a,b\n1,2\n");
-        early.end_early();
-        assert_eq!(early.cut().unwrap().line, 3);
+        let mut cuts = Vec::new();
+        let early = table("a,b\n1,2\n");
+        let rows = early.all_rows(&mut cuts, |_| Some(()), |rows| rows.len() > 1);
+        assert_eq!(rows.len(), 1);
+        assert_eq!(cuts, [format!("a.csv, line 3: {MISSING}")]);
     }
 }

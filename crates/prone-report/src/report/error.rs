@@ -74,7 +74,7 @@ pub enum ReportError {
     },
     /// What was read cannot be written again.
     #[error("JSON: {0}")]
-    Encode(serde_json::Error),
+    Encode(#[from] serde_json::Error),
     /// The records of a command cannot be set out to be read.
     #[error("cannot write a temporary file: {0}")]
     Temporary(io::Error),

@@ -1,6 +1,7 @@
 //! A result folder: what it says of itself, and its files.
 
 use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use serde::de::DeserializeOwned;
@@ -8,6 +9,7 @@ use serde_json::Value;
 
 use super::ReportError;
 use super::cut_table::CutTable;
+use crate::figures::FigureError;
 use prone_record::figure_entry::{FIGURES_FILE, FigureEntry};
 use prone_record::head::Head;
 use prone_record::output::RUN_FILE;
@@ -31,8 +33,7 @@ pub struct Folder {
     pub(super) given: Given,
     /// What made it.
     pub head: Head,
-    /// All of `run.json`.
-    pub run: Value,
+    run: Value,
 }
 
 impl Folder {
@@ -47,30 +48,18 @@ impl Folder {
         })
     }
 
-    /// A word or number of `run.json`.
-    pub fn said(&self, pointer: &str) -> Option<String> {
-        match self.run.pointer(pointer)? {
-            Value::Null => None,
-            Value::String(text) => Some(text.clone()),
-            other => Some(other.to_string()),
-        }
-    }
-
     /// Folders of records within this one.
     pub fn records(&self) -> Vec<String> {
         let mut found = Vec::new();
         for group in ["crawls", "pulls"] {
-            let Ok(entries) = fs::read_dir(self.path.join(group)) else {
-                continue;
-            };
+            let entries = fs::read_dir(self.path.join(group)).into_iter().flatten();
             let folders = entries
                 .filter_map(Result::ok)
                 // Not a link, which may lead back here.
                 .filter(|entry| entry.file_type().is_ok_and(|kind| kind.is_dir()))
                 .filter(|entry| entry.path().join(RUN_FILE).is_file());
-            found.extend(
-                folders.map(|entry| format!("{group}/{}", entry.file_name().to_string_lossy())),
-            );
+            let names = folders.map(|entry| entry.file_name().to_string_lossy().into_owned());
+            found.extend(names.map(|name| format!("{group}/{name}")));
         }
         found.sort();
         found
@@ -92,9 +81,10 @@ impl Folder {
     /// # Errors
     /// [`ReportError`] where it is missing or malformed.
     pub fn json<T: DeserializeOwned>(&self, file: &str) -> Result<T, ReportError> {
-        let path = self.file(file)?;
-        serde_json::from_str(&text(&path)?)
-            .map_err(|source| ReportError::Json { file: path, source })
+        serde_json::from_slice(&self.bytes(file)?).map_err(|source| ReportError::Json {
+            file: self.path.join(file),
+            source,
+        })
     }
 
     /// A table, up to where it breaks off.
@@ -102,14 +92,10 @@ impl Folder {
     /// # Errors
     /// [`ReportError`] where it is missing.
     pub fn table(&self, file: &str) -> Result<CutTable, ReportError> {
-        let path = self.file(file)?;
         // What breaks off may break off within a letter.
-        let bytes = fs::read(&path).map_err(|source| ReportError::Read {
-            file: path.clone(),
-            source,
-        })?;
+        let bytes = self.bytes(file)?;
         Ok(CutTable::read(
-            path,
+            self.path.join(file),
             format!("{}/{file}", self.name),
             &String::from_utf8_lossy(&bytes),
         ))
@@ -120,8 +106,14 @@ impl Folder {
     /// # Errors
     /// [`ReportError`] where it is missing.
     pub fn bytes(&self, file: &str) -> Result<Vec<u8>, ReportError> {
-        let path = self.file(file)?;
-        fs::read(&path).map_err(|source| ReportError::Read { file: path, source })
+        let path = self.path.join(file);
+        fs::read(&path).map_err(|source| match source.kind() {
+            ErrorKind::NotFound => ReportError::Missing {
+                folder: self.path.clone(),
+                file: file.to_owned(),
+            },
+            _ => ReportError::Read { file: path, source },
+        })
     }
 
     /// The drawings and pictures that the command made.
@@ -132,22 +124,14 @@ impl Folder {
         self.json(FIGURES_FILE)
     }
 
-    fn file(&self, file: &str) -> Result<PathBuf, ReportError> {
-        let path = self.path.join(file);
-        if path.exists() {
-            Ok(path)
-        } else {
-            Err(ReportError::Missing {
-                folder: self.path.clone(),
-                file: file.to_owned(),
-            })
-        }
+    /// What was drawn of this folder; an error says that it was of this one.
+    ///
+    /// # Errors
+    /// [`ReportError`] where it could not be drawn.
+    pub fn drawn<T>(&self, figures: Result<T, FigureError>) -> Result<T, ReportError> {
+        figures.map_err(|source| ReportError::Figure {
+            run: self.name.clone(),
+            source,
+        })
     }
-}
-
-fn text(file: &Path) -> Result<String, ReportError> {
-    fs::read_to_string(file).map_err(|source| ReportError::Read {
-        file: file.to_owned(),
-        source,
-    })
 }

@@ -2,23 +2,22 @@
 
 use std::collections::BTreeSet;
 
-use base64::Engine as _;
-use base64::engine::general_purpose::STANDARD as BASE64;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::folder::Given;
-use super::publication::{MadeBy, Part, Place, Publication, PublishedRun};
+use super::publication::{Part, Place, Publication};
+use super::replay::Replay;
+use super::run::{Content, PublishedRun};
 use super::shown::{Image, Shown};
 use super::{
-    Card, LARGEST_PAGE, ReportError, Run, card_sections, curve_tables, replay, run_sections,
+    Card, LARGEST_PAGE, ReportError, Run, card_sections, curve_tables, figure_html, places,
+    run_sections,
 };
+use crate::figures::each_once;
 use crate::page_head;
+use crate::view::record::not_simulated;
 
 const STYLE: &str = include_str!("style.css");
-
-/// Nothing leaves the page, and nothing comes to it. The frame of the replay inherits this.
-const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; \
-                      img-src data:; base-uri 'none'; form-action 'none'";
 
 /// Number of the figure that shows what gaits are made of; their tables follow it.
 const CURVES: &str = "25";
@@ -48,7 +47,7 @@ impl Page<'_> {
             below = self.below();
         }
         let room = room.saturating_sub(below.0.len());
-        let replay = replay::of(self.runs, room)?;
+        let replay = Replay::from_runs(self.runs, room)?;
         let replayed = replay
             .as_ref()
             .map_or_else(Vec::new, |replay| replay.shown.clone());
@@ -57,7 +56,7 @@ impl Page<'_> {
             (DOCTYPE)
             html lang="en" {
                 head {
-                    (page_head::of(&title, POLICY))
+                    (page_head::from_title(&title))
                     style { (PreEscaped(STYLE)) }
                 }
                 body {
@@ -94,11 +93,17 @@ impl Page<'_> {
 
     /// What is before the replay.
     fn above(&self) -> Markup {
+        let shortfalls: Vec<&String> = self.runs.iter().flat_map(|run| &run.shortfalls).collect();
+        let unrecorded: Vec<&String> = self.runs.iter().flat_map(|run| &run.unrecorded).collect();
         html! {
-            (self.shortfalls())
-            (self.unrecorded())
+            @if !shortfalls.is_empty() {
+                section.warning { (sentences("Records that are not whole", &shortfalls)) }
+            }
+            @if !unrecorded.is_empty() {
+                section { (sentences("What was not recorded", &unrecorded)) }
+            }
             @for run in self.published() { (run.results()) }
-            (card_sections::all(self.cards))
+            (card_sections::all(self.cards, self.publication))
         }
     }
 
@@ -114,54 +119,43 @@ impl Page<'_> {
     }
 
     fn header(&self) -> Markup {
+        let not_simulated = self.not_simulated();
         html! {
             header {
                 h1 { (self.publication.title()) }
                 p.lead {
-                    "Made from the records of " (self.titles().join("; ")) ". " (self.publication.lead()) " "
-                    strong { "Ours" } " is what this program simulated; " strong { "published" }
-                    " is the thesis; " strong { "theirs" } " is somebody else's. No robot took part."
+                    "Made from the records of " (self.titles().join("; ")) ". " (self.publication.lead().unwrap_or_default()) " "
+                    strong { "Ours" } " is what this program simulated; "
+                    @if let Some(name) = self.publication.name() { strong { "published" } " is " (name) "; " }
+                    strong { "theirs" } " is somebody else's. "
+                    @if not_simulated.is_empty() { "No robot took part." }
+                    @else { "Not simulated: " (not_simulated.join(", ")) "." }
                 }
             }
         }
     }
 
+    /// The records that were not simulated, and where each comes from.
+    fn not_simulated(&self) -> Vec<String> {
+        let records = self.runs.iter().filter_map(|run| {
+            let from = not_simulated(&run.record()?.info.origin)?;
+            Some(format!("{} ({from})", run.folder.name))
+        });
+        records.collect()
+    }
+
     /// The folders that were named.
     fn titles(&self) -> Vec<String> {
-        let folders = self.runs.iter().map(Run::folder);
+        let folders = self.runs.iter().map(|run| &run.folder);
         let named = folders.filter(|folder| folder.given == Given::Named);
         named
             .map(|folder| format!("{} ({})", folder.name, folder.head.command))
             .collect()
     }
 
-    fn shortfalls(&self) -> Markup {
-        let sentences: Vec<String> = self.runs.iter().flat_map(Run::shortfalls).collect();
-        html! {
-            @if !sentences.is_empty() {
-                section.warning {
-                    h2 { "Records that are not whole" }
-                    ul { @for sentence in &sentences { li { (sentence) } } }
-                }
-            }
-        }
-    }
-
-    fn unrecorded(&self) -> Markup {
-        let sentences: Vec<&String> = self.runs.iter().flat_map(Run::unrecorded).collect();
-        html! {
-            @if !sentences.is_empty() {
-                section {
-                    h2 { "What was not recorded" }
-                    ul { @for sentence in &sentences { li { (sentence) } } }
-                }
-            }
-        }
-    }
-
     fn published(&self) -> impl Iterator<Item = &dyn PublishedRun> {
-        self.runs.iter().filter_map(|run| match run {
-            Run::Published(_, run) => Some(run.as_ref()),
+        self.runs.iter().filter_map(|run| match &run.content {
+            Content::Published(run) => Some(run.as_ref()),
             _ => None,
         })
     }
@@ -187,7 +181,7 @@ impl Page<'_> {
             .filter(|shown| shown.number == place.number)
             .collect();
         html! {
-            @if figures.is_empty() { (empty(place)) }
+            @if figures.is_empty() { (figure_html::empty(place)) }
             // What is published stands below the first of several.
             @for (index, figure) in figures.iter().enumerate() {
                 (self.captioned(figure, place.published.as_deref().filter(|_| index == 0)))
@@ -206,14 +200,8 @@ impl Page<'_> {
     fn captioned(&self, figure: &Shown, published: Option<&str>) -> Markup {
         html! {
             figure id=(figure.stem) {
-                @if self.left_out.contains(&figure.stem) {
-                    div.place { p {
-                        "Left out, as the page would be too large: " code { "figures/" (figure.stem) ".png" }
-                        " of a report that is written into a folder."
-                    } }
-                } @else {
-                    (image(figure))
-                }
+                @if self.left_out.contains(&figure.stem) { (figure_html::left_out(figure)) }
+                @else { (figure_html::image(figure)) }
                 figcaption {
                     strong {
                         @if !figure.number.is_empty() { "Figure " (figure.number) ". " }
@@ -229,10 +217,7 @@ impl Page<'_> {
 
     /// Figures that have no place in the publication.
     fn beyond(&self) -> Markup {
-        let has_place = |number: &str| {
-            let mut parts = self.publication.parts().iter();
-            parts.any(|part| part.places.iter().any(|place| place.number == number))
-        };
+        let has_place = |number: &str| places(self.publication).any(|place| place.number == number);
         let others = self.shown.iter();
         let others: Vec<&Shown> = others.filter(|shown| !has_place(&shown.number)).collect();
         html! {
@@ -251,22 +236,22 @@ impl Page<'_> {
     fn curves(&self) -> Markup {
         html! {
             @for run in self.runs {
-                @if let Run::Search(search) = run {
-                    (curve_tables::found(
-                        &search.result.gait, &search.folder.name, &search.result.curves,
-                    ))
+                @if let Content::Pulls(result) = &run.content {
+                    (curve_tables::found(&result.gait, &run.folder.name, &result.curves))
                 }
             }
         }
     }
 
     fn footer(&self) -> Markup {
-        let robots = self.robots();
+        let robots = self.runs.iter().filter_map(|run| run.robot.as_deref());
+        let robots = each_once(robots, &[]);
         html! {
             footer {
                 p {
-                    "Written by prone " (env!("CARGO_PKG_VERSION")) " from records that it made; nothing was \
-                     simulated for this page."
+                    "Written by prone " (env!("CARGO_PKG_VERSION")) " from records"
+                    @if self.not_simulated().is_empty() { " that it made" }
+                    "; nothing was simulated for this page."
                     @if !robots.is_empty() {
                         " Text without a source is about " (robots.join(" and ")) "."
                     }
@@ -274,22 +259,16 @@ impl Page<'_> {
             }
         }
     }
+}
 
-    /// Names of the robots of the records, each once.
-    fn robots(&self) -> Vec<String> {
-        let mut robots = Vec::new();
-        for run in self.runs {
-            let robot = match run.record() {
-                Some(record) => Some(record.robot.name.clone()),
-                None => run.folder().said("/robot/name"),
-            };
-            robots.extend(robot.filter(|robot| !robots.contains(robot)));
-        }
-        robots
+fn sentences(heading: &str, sentences: &[&String]) -> Markup {
+    html! {
+        h2 { (heading) }
+        ul { @for sentence in sentences { li { (sentence) } } }
     }
 }
 
-fn replay_section(replay: &replay::Replay) -> Markup {
+fn replay_section(replay: &Replay) -> Markup {
     html! {
         section {
             h2 { "Replay" }
@@ -312,54 +291,10 @@ fn replay_section(replay: &replay::Replay) -> Markup {
     }
 }
 
-/// A figure that is not there: what fills its place.
-fn empty(place: &Place) -> Markup {
-    html! {
-        div.place id={ "place-" (place.number) } {
-            p {
-                strong { "Figure " (place.number) ": " (place.shows) ". " }
-                @match &place.made_by {
-                    MadeBy::Command(command) => {
-                        "Not among these runs. " code { (command) } " makes it; give its folder to "
-                        code { "prone report" } "."
-                    }
-                    MadeBy::Robot => {
-                        "Comes with a robot on the wire, which prone does not drive yet."
-                    }
-                }
-            }
-            @if let Some(published) = &place.published { p { (published) } }
-        }
-    }
-}
-
-fn image(figure: &Shown) -> Markup {
-    let picture = |kind: &str, bytes: &[u8]| {
-        html! { img alt=(figure.alt) src={ "data:image/" (kind) ";base64," (BASE64.encode(bytes)) }; }
-    };
-    match &figure.image {
-        Image::Drawing { svg, .. } => html! {
-            div.drawing role="img" aria-label=(figure.alt) { (PreEscaped(inline(svg))) }
-        },
-        Image::Recorded {
-            small: Some(small), ..
-        } => picture("png", small),
-        // In an image nothing of a drawing can run or load.
-        Image::Recorded { svg, .. } => html! { div.drawing { (picture("svg+xml", svg)) } },
-    }
-}
-
-/// An SVG document as a part of a page: without its XML declaration.
-fn inline(svg: &str) -> &str {
-    svg.find("<svg").map_or(svg, |start| &svg[start..])
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::publication::Unpublished;
     use super::*;
-    use crate::figures::GaitNumbers;
-    use crate::report::Folder;
 
     /// Two sections of four figures, the last of which takes a robot.
     struct Chapter(Vec<Part>);
@@ -369,10 +304,7 @@ mod tests {
             let place = |number: u32| Place {
                 number: number.to_string(),
                 shows: format!("figure {number}"),
-                made_by: match number {
-                    29 => MadeBy::Robot,
-                    _ => MadeBy::Command("prone reproduce".to_owned()),
-                },
+                command: (number != 29).then(|| "prone reproduce".to_owned()),
                 published: None,
             };
             let part = |numbers: std::ops::Range<u32>| Part {
@@ -389,24 +321,8 @@ mod tests {
             "A chapter"
         }
 
-        fn lead(&self) -> &'static str {
-            "Numbers are its own."
-        }
-
         fn parts(&self) -> &[Part] {
             &self.0
-        }
-
-        fn gaits(&self) -> &[GaitNumbers] {
-            &[]
-        }
-
-        fn joint_range(&self, _: &str) -> Option<(f64, f64)> {
-            None
-        }
-
-        fn read(&self, _: &Folder) -> Option<Result<Box<dyn PublishedRun>, ReportError>> {
-            None
         }
     }
 

@@ -2,7 +2,6 @@
 
 use maud::{Markup, html};
 
-use super::folder::Given;
 use super::{ReportError, Run};
 use crate::view;
 
@@ -19,75 +18,59 @@ pub(super) struct Replay {
     pub(super) left_out: Vec<String>,
 }
 
-/// A record that can be replayed.
-struct Record<'a> {
-    name: &'a str,
-    run: &'a view::record::Run,
+/// A record that can be replayed: its folder, as it was named, and its replay.
+type Named<'a> = (&'a str, &'a view::record::Run);
+
+impl Replay {
+    /// As many records as `room` bytes of the page hold, two at most: of those that the user named or,
+    /// without any, the pulls within a reproduction, which are one gait beside the other.
+    pub(super) fn from_runs(runs: &[Run], room: usize) -> Result<Option<Self>, ReportError> {
+        let records = runs.iter().filter_map(|run| {
+            let record = run.record()?;
+            let place = record.replay_place(run.folder.given);
+            Some((place, (run.folder.name.as_str(), &record.replay)))
+        });
+        let mut records: Vec<(u8, Named<'_>)> = records.collect();
+        // Stable: equals keep their order.
+        records.sort_by_key(|(place, _)| *place);
+        // One that was named is not put beside one that was not.
+        let Some(&(first, _)) = records.first() else {
+            return Ok(None);
+        };
+        let alike = records.partition_point(|(place, _)| *place == first);
+        let records: Vec<Named<'_>> = records.into_iter().map(|(_, record)| record).collect();
+        let mut count = SIDE_BY_SIDE.min(alike);
+        let frame = loop {
+            let frame = frame(&records[..count])?;
+            if frame.0.len() <= room || count == 0 {
+                break frame;
+            }
+            count -= 1;
+        };
+        let mut shown: Vec<String> = records.iter().map(|(name, _)| (*name).to_owned()).collect();
+        let left_out = shown.split_off(count);
+        Ok(Some(Self {
+            frame,
+            shown,
+            left_out,
+        }))
+    }
 }
 
-/// As many records as `room` bytes of the page hold, two at most: of those that the user named or,
-/// without any, the pulls within a reproduction, which are one gait beside the other.
-pub(super) fn of(runs: &[Run], room: usize) -> Result<Option<Replay>, ReportError> {
-    fn record(run: &Run) -> Option<(u8, Record<'_>)> {
-        let (folder, replay, within) = match run {
-            Run::Crawl(crawl) => (&crawl.folder, &crawl.replay, 2),
-            Run::Pull(pull) => (&pull.folder, &pull.replay, 1),
-            Run::Published(..) | Run::Search(_) | Run::Drawn(_) => return None,
-        };
-        let place = match folder.given {
-            Given::Named => 0,
-            Given::Within => within,
-        };
-        let name = &folder.name;
-        Some((place, Record { name, run: replay }))
-    }
-    let mut records: Vec<(u8, Record<'_>)> = runs.iter().filter_map(record).collect();
-    // Stable: equals keep their order.
-    records.sort_by_key(|(place, _)| *place);
-    // One that was named is not put beside one that was not.
-    let first = records.first().map(|(place, _)| *place);
-    let alike = records
-        .iter()
-        .take_while(|(place, _)| Some(*place) == first)
-        .count();
-    let records: Vec<Record<'_>> = records.into_iter().map(|(_, record)| record).collect();
+/// Records side by side; nothing without any.
+fn frame(records: &[Named<'_>]) -> Result<Markup, ReportError> {
     if records.is_empty() {
-        return Ok(None);
+        return Ok(html! {});
     }
-    let names = |records: &[Record<'_>]| -> Vec<String> {
-        records
-            .iter()
-            .map(|record| record.name.to_owned())
-            .collect()
-    };
-    for count in (0..=SIDE_BY_SIDE.min(alike)).rev() {
-        let (shown, left_out) = records.split_at(count);
-        let frame = if shown.is_empty() {
-            html! {}
-        } else {
-            frame(shown)?
-        };
-        if frame.0.len() <= room || count == 0 {
-            return Ok(Some(Replay {
-                frame,
-                shown: names(shown),
-                left_out: names(left_out),
-            }));
-        }
-    }
-    Ok(None)
-}
-
-fn frame(records: &[Record<'_>]) -> Result<Markup, ReportError> {
     let mut replays: Vec<view::record::Run> =
-        records.iter().map(|record| record.run.clone()).collect();
+        records.iter().map(|(_, run)| (*run).clone()).collect();
     if let [first, second] = replays.as_mut_slice()
         && first.title() == second.title()
     {
-        first.set_apart(records[0].name);
-        second.set_apart(records[1].name);
+        first.set_apart(records[0].0);
+        second.set_apart(records[1].0);
     }
-    let page = view::page(&replays.iter().collect::<Vec<_>>()).map_err(ReportError::Encode)?;
+    let page = view::page(&replays.iter().collect::<Vec<_>>())?;
     let titles: Vec<&str> = replays.iter().map(view::record::Run::title).collect();
     Ok(html! {
         iframe.replay title={ "Replay: " (titles.join(" beside ")) } sandbox="allow-scripts"

@@ -3,25 +3,28 @@
 use std::collections::BTreeSet;
 
 use rayon::prelude::*;
+use serde::Serialize;
 
 use super::folder::Folder;
-use super::publication::Publication;
 use super::{ReportError, Run, picture};
 use crate::figures::{self, Figure};
-use prone_record::figure_entry::FigureEntry;
 
 /// One figure of a report.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Shown {
-    /// Name of its files, of which no other figure has the same.
-    pub(super) stem: String,
-    /// Number of its original in the thesis; empty where it has none.
-    pub(super) number: String,
-    pub(super) title: String,
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Shown {
+    /// Number of its original in the publication; empty where it has none.
+    pub number: String,
+    /// Name of its files in `figures/`, without extension; no other figure has the same.
+    pub stem: String,
+    /// A few words.
+    pub title: String,
+    #[serde(skip)]
     pub(super) caption: String,
+    #[serde(skip)]
     pub(super) alt: String,
     /// The folders that it comes from, as they were named; more than one where they have the same.
-    pub(super) runs: Vec<String>,
+    pub runs: Vec<String>,
+    #[serde(skip)]
     pub(super) image: Image,
 }
 
@@ -43,33 +46,11 @@ pub(super) enum Image {
     },
 }
 
-/// Every figure of some runs, in their order.
-pub(super) fn of(runs: &[Run], publication: &dyn Publication) -> Result<Vec<Shown>, ReportError> {
+/// Takes the figures out of some runs, in their order.
+pub(super) fn from_runs(runs: &mut [Run]) -> Result<Vec<Shown>, ReportError> {
     let mut found = Vec::new();
     for run in runs {
-        match run {
-            Run::Published(folder, run) => {
-                let drawings = run.drawings().map_err(|source| ReportError::Figure {
-                    run: folder.name.clone(),
-                    source,
-                })?;
-                add(&mut found, folder, drawings, run.recorded())?;
-            }
-            Run::Crawl(run) => {
-                let drawings = run.drawing(publication)?.into_iter().collect();
-                add(&mut found, &run.folder, drawings, &run.recorded)?;
-            }
-            Run::Search(run) => {
-                let mut drawings = run.drawings()?;
-                drawings.extend(figures::parameters(publication.gaits(), &run.chains));
-                add(&mut found, &run.folder, drawings, &[])?;
-            }
-            Run::Drawn(run) => {
-                let drawings = run.drawing()?.into_iter().collect();
-                add(&mut found, &run.folder, drawings, &run.recorded)?;
-            }
-            Run::Pull(_) => {}
-        }
+        add(&mut found, run)?;
     }
     let mut found = shrunk(once(found))?;
     set_apart(&mut found);
@@ -101,12 +82,9 @@ fn once(found: Vec<Shown>) -> Vec<Shown> {
 }
 
 /// What was drawn, then what was recorded and is not among that.
-fn add(
-    found: &mut Vec<Shown>,
-    folder: &Folder,
-    drawings: Vec<Figure>,
-    recorded: &[FigureEntry],
-) -> Result<(), ReportError> {
+fn add(found: &mut Vec<Shown>, run: &mut Run) -> Result<(), ReportError> {
+    let folder = &run.folder;
+    let drawings = std::mem::take(&mut run.drawings);
     let drawn: BTreeSet<String> = drawings.iter().map(|figure| figure.stem.clone()).collect();
     found.extend(drawings.into_iter().map(|figure| Shown {
         image: Image::Drawing {
@@ -120,7 +98,7 @@ fn add(
         alt: figure.alt,
         runs: vec![folder.name.clone()],
     }));
-    for entry in recorded {
+    for entry in std::mem::take(&mut run.recorded) {
         let stem = entry.file.rsplit('/').next().unwrap_or(&entry.file);
         // What is drawn anew from tables that were cut would look whole in its recorded form.
         if drawn.contains(stem) {
@@ -129,16 +107,16 @@ fn add(
         let png = folder.bytes(&format!("{}.png", entry.file))?;
         found.push(Shown {
             stem: stem.to_owned(),
-            number: entry.number.clone(),
-            title: entry.title.clone(),
-            caption: entry.caption.clone(),
-            alt: entry.alt.clone(),
-            runs: vec![folder.name.clone()],
             image: Image::Recorded {
                 svg: folder.bytes(&format!("{}.svg", entry.file))?,
                 small: entry.picture.then(Vec::new),
                 png,
             },
+            number: entry.number,
+            title: entry.title,
+            caption: entry.caption,
+            alt: entry.alt,
+            runs: vec![folder.name.clone()],
         });
     }
     Ok(())
@@ -193,20 +171,20 @@ impl Image {
 impl Shown {
     /// Its files: SVG and PNG.
     pub(super) fn files(&self, png_scale: f32) -> Result<[(String, Vec<u8>); 2], ReportError> {
-        let (svg, png) = match &self.image {
-            Image::Drawing { svg, png } => {
-                let made = || figures::raster::png(svg, png_scale);
-                let png = png.clone().map_or_else(made, Ok);
-                let png = png.map_err(|source| ReportError::Figure {
+        let png = match &self.image {
+            Image::Drawing { png: Some(png), .. } | Image::Recorded { png, .. } => png.clone(),
+            Image::Drawing { svg, png: None } => {
+                figures::raster::png(svg, png_scale).map_err(|source| ReportError::Figure {
                     run: self.runs.join(", "),
                     source,
-                })?;
-                (svg.clone().into_bytes(), png)
+                })?
             }
-            Image::Recorded { svg, png, .. } => (svg.clone(), png.clone()),
         };
         Ok([
-            (format!("figures/{}.svg", self.stem), svg),
+            (
+                format!("figures/{}.svg", self.stem),
+                self.image.svg().to_vec(),
+            ),
             (format!("figures/{}.png", self.stem), png),
         ])
     }

@@ -12,6 +12,8 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
 
+use crate::figures::extremes;
+
 /// Stands for what is not a number.
 const NOT_A_NUMBER: i16 = i16::MIN;
 
@@ -53,15 +55,10 @@ pub(super) fn wholes(values: &[f64]) -> Packed {
         return constant;
     }
     let finite = values.iter().copied().filter(|value| value.is_finite());
-    let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-        (low.min(value), high.max(value))
-    });
-    let (offset, scale) = if low < high {
-        (f64::midpoint(low, high), (high - low) / 65_534.0)
-    } else if low.is_finite() {
-        (low, 1.0)
-    } else {
-        (0.0, 1.0)
+    let (offset, scale) = match extremes(finite) {
+        Some((low, high)) if low < high => (f64::midpoint(low, high), (high - low) / 65_534.0),
+        Some((low, _)) => (low, 1.0),
+        None => (0.0, 1.0),
     };
     #[expect(
         clippy::cast_possible_truncation,

@@ -73,11 +73,11 @@ impl Run {
 /// # Errors
 /// [`ReadError`] where nothing can be shown.
 pub fn read(folder: &Path) -> Result<Run, ReadError> {
-    Ok(of(&Recorded::read(folder)?))
+    Ok(from_record(&Recorded::read(folder)?))
 }
 
 /// Packs a record.
-pub fn of(record: &Recorded) -> Run {
+pub fn from_record(record: &Recorded) -> Run {
     let mut model = record.model.clone();
     strip_inertia(&mut model);
     shorten(&mut model);
@@ -115,56 +115,43 @@ pub fn of(record: &Recorded) -> Run {
 
 /// What *About* says; what a record does not say is left out.
 fn facts(run: &RecordInfo) -> Vec<(&'static str, String)> {
-    let gait = run.gait.description.as_deref();
-    let regime = run.origin.regime();
+    let (robot, gait, head) = (&run.robot, &run.gait, &run.head);
     let (steering, pull_s) = match &run.options {
         Options::Crawl(crawl) => (crawl.steering.clone(), None),
         Options::Pull(pull) => (None, Some(pull.duration_s)),
     };
-    let head = &run.head;
+    let about = gait.description.as_ref();
+    let version = robot.version.as_ref().map(|_| robot.version_name());
+    let (mut contacts, mut time_step) = (None, None);
+    if let Some(regime) = run.origin.regime() {
+        contacts = Some(format!("{}, friction {:?}", regime.name, regime.friction));
+        time_step = Some(format!("{:?} s", regime.time_step_s));
+    }
+    let (program, commit, command) = (&head.version, &head.commit, head.command.name());
     let facts = [
-        (
-            "gait",
-            gait.map(|text| format!("{}: {text}", run.gait.name)),
-        ),
-        ("robot", Some(run.robot.name.clone())),
-        (
-            "robot's version",
-            run.robot
-                .version
-                .is_some()
-                .then(|| run.robot.version_name()),
-        ),
+        ("gait", about.map(|text| format!("{}: {text}", gait.name))),
+        ("robot", Some(robot.name.clone())),
+        ("robot's version", version),
         ("scene", Some(run.scene.name.clone())),
-        (
-            "regime",
-            regime.map(|regime| format!("{}, friction {:?}", regime.name, regime.friction)),
-        ),
+        ("regime", contacts),
         ("steering", steering),
         ("pull", pull_s.map(|seconds| format!("{seconds:?} s"))),
         ("engine", head.engine.clone()),
-        ("recorded on", recorded_on(&run.origin)),
+        ("recorded on", not_simulated(&run.origin)),
         (
             "recorded by",
-            Some(format!(
-                "prone {}, commit {}, {}",
-                head.version,
-                head.commit,
-                head.command.name()
-            )),
+            Some(format!("prone {program}, commit {commit}, {command}")),
         ),
-        (
-            "time step",
-            regime.map(|regime| format!("{:?} s", regime.time_step_s)),
-        ),
+        ("time step", time_step),
     ];
-    let said = facts.into_iter();
-    said.filter_map(|(name, value)| Some((name, value?)))
+    let known = facts.into_iter();
+    known
+        .filter_map(|(name, value)| Some((name, value?)))
         .collect()
 }
 
 /// Where a record comes from that was not simulated.
-fn recorded_on(origin: &Origin) -> Option<String> {
+pub(crate) fn not_simulated(origin: &Origin) -> Option<String> {
     match origin {
         Origin::Simulated(_) => None,
         Origin::Robot(robot) => Some(format!("the robot {}", robot.host)),

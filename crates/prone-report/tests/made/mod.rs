@@ -96,10 +96,23 @@ fn run(robot: &CompiledRobot, origin: &Value, record: &Value, options: &Value) -
 
 /// Writes a simulated record, whole.
 pub(crate) fn whole(folder: &Path) {
-    let nao = nao();
-    let robot = nao.robot();
-    let channels = crawl_tables::channels(robot);
-    let origin = json!({
+    written(folder, &simulated());
+}
+
+/// Writes the same as if a robot had been recorded.
+pub(crate) fn driven(folder: &Path) {
+    written(folder, &driven_by_hand());
+}
+
+fn driven_by_hand() -> Value {
+    json!({
+        "kind": "robot", "host": "nao.local", "versions": {"NAOqi": "2.1"},
+        "settings": {"stiffness": "0.8"},
+    })
+}
+
+fn simulated() -> Value {
+    json!({
         "kind": "simulated", "engine": "by hand", "name": "locomotion", "friction": 0.7,
         "impratio": 10.0, "effort_limit": "the maker's", "stops": "the maker's",
         "servo_gain": "the robot's", "servo_rate_per_s": 20.0, "servo_speed_rad_s": 3.0,
@@ -107,7 +120,14 @@ pub(crate) fn whole(folder: &Path) {
         "solimp": [0.9, 0.99, 0.001, 0.5, 2.0], "integrator": "implicitfast", "solver": "Newton",
         "solver_iterations": 100, "solver_tolerance": 1e-8, "cone": "elliptic",
         "gravity_m_s2": [0.0, 0.0, -9.81], "servo_gains_nms_rad": {}, "effort_limits_nm": {},
-    });
+    })
+}
+
+/// Writes a whole record with an origin.
+fn written(folder: &Path, origin: &Value) {
+    let nao = nao();
+    let robot = nao.robot();
+    let channels = crawl_tables::channels(robot);
     let record = json!({
         "format": 2, "rows": TIMES_S.len(), "row_step_s": 0.02, "channels": channels,
     });
@@ -115,7 +135,7 @@ pub(crate) fn whole(folder: &Path) {
         "most_cycles": 1, "time_scale": 1.0, "steering": "none", "turn_command_deg": 0.0,
         "joint_offset_deg": 0.0, "joint_offsets_rad": [], "scene_text": null,
     });
-    write(folder, "run.json", &run(&nao, &origin, &record, &options));
+    write(folder, "run.json", &run(&nao, origin, &record, &options));
     write(folder, "model.json", &model(robot));
     write(folder, "summary.json", &summary());
     write(folder, "figures.json", &json!([]));
@@ -167,10 +187,7 @@ pub(crate) fn sparse(folder: &Path) {
         {"table": "rows.csv", "columns": angles, "is": "instant", "unit": "rad"},
         {"table": "rows.csv", "columns": [torque], "is": "instant", "unit": "N·m"},
     ]);
-    let origin = json!({
-        "kind": "robot", "host": "nao.local", "versions": {"NAOqi": "2.1"},
-        "settings": {"stiffness": "0.8"},
-    });
+    let origin = driven_by_hand();
     let record = json!({"format": 2, "rows": 3, "row_step_s": null, "channels": channels});
     let options = json!({"time_scale": 1.0});
     write(folder, "run.json", &run(&nao, &origin, &record, &options));

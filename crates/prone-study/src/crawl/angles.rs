@@ -28,5 +28,6 @@ pub(super) fn of_crawl(robot: &Robot, gait: &str, crawl: &Crawl) -> AngleRecord 
             .to_vec(),
         rows: rows.collect(),
         cycles: AngleRecord::CYCLES.min(crawl.cycles.len()),
+        not_simulated: None,
     }
 }

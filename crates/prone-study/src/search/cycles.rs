@@ -305,7 +305,7 @@ impl CycleRun {
             let text = cycle_file::write(&cycle, &self.header(&cycle, found));
             artefacts.insert("gait.toml".into(), text.into_bytes());
         }
-        draw(&mut artefacts, frontier_figure(frontier))?;
+        draw(&mut artefacts, frontier_figure(frontier)?)?;
         Ok(artefacts)
     }
 }

@@ -247,9 +247,9 @@ impl PullRun {
             PullAim::Graded(_) => Scores::Graded,
         };
         let objective = terms.aim.objective();
-        let history = SearchRecord::of(search, &objective, scores);
+        let history = SearchRecord::from_search(search, &objective, scores);
         let history = history.map(|history| figures::generations(&history));
-        let rows = ConfirmedRecord::of(confirmation);
+        let rows = ConfirmedRecord::from_confirmation(confirmation);
         let drawn = [
             history.transpose()?.flatten(),
             figures::confirmation(&rows, objective.name())?,

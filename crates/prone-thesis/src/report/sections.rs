@@ -6,68 +6,47 @@ use crate::prose::{Numbers, Prose};
 use crate::published;
 use crate::run_info::RunInfo;
 use crate::summary::{CostRow, Summary};
+use crate::table_crawl::TableExperiment;
 use prone_record::contact_story::ContactStory;
+use prone_record::pulls::JOINTS;
+use prone_report::report::html_table::{optional, percent, table};
 
 /// From this duration on the unknown start pose of the recordings no longer decides the cost.
 const START_POSE_FORGOTTEN_S: f64 = 3.0;
 
 pub(crate) fn results(summary: &Summary) -> Markup {
-    let ratios = |of: fn(&crate::summary::RatioRow) -> Option<f64>| {
-        let long = summary
-            .ratios
-            .iter()
-            .filter(|row| row.duration_s >= START_POSE_FORGOTTEN_S);
-        long.filter_map(of).collect::<Vec<_>>()
-    };
-    let ours = ratios(|row| Some(row.ours));
-    let theirs = ratios(|row| row.published);
-    let rms: Vec<f64> = summary
-        .agreement
-        .iter()
-        .filter(|row| row.duration_s >= START_POSE_FORGOTTEN_S)
-        .map(|row| row.rms_nm)
-        .collect();
-    let apart: Vec<f64> = summary
-        .costs
-        .iter()
-        .filter(|row| row.duration_s >= START_POSE_FORGOTTEN_S)
-        .filter_map(|row| row.relative_difference)
-        .map(f64::abs)
-        .collect();
+    let long = |duration_s: f64| duration_s >= START_POSE_FORGOTTEN_S;
+    let ratios = || summary.ratios.iter().filter(|row| long(row.duration_s));
+    let costs = summary.costs.iter().filter(|row| long(row.duration_s));
+    let apart = costs.filter_map(|row| Some(row.relative_difference?.abs()));
+    let agreement = summary.agreement.iter().filter(|row| long(row.duration_s));
+    let rms = agreement.map(|row| row.rms_nm);
+    let strides = summary.stride.chain_mm.iter();
+    let (gaits, strides): (Vec<&str>, Vec<String>) = strides
+        .map(|(gait, stride)| (gait.as_str(), format!("{stride:.1}")))
+        .unzip();
     html! {
         section {
             h2 { "In short" }
             ul.cards {
                 li {
-                    strong { (span(&ours, percent)) }
+                    strong { (span(ratios().map(|row| row.ours), percent)) }
                     span {
                         "cost of the optimal gait over the nominal one, ours, from 3 s on; published: "
-                        (span(&theirs, percent))
+                        (span(ratios().filter_map(|row| row.published), percent))
                     }
                 }
                 li {
-                    strong { (span(&apart, percent)) }
+                    strong { (span(apart, percent)) }
                     span { "our costs away from the published ones, from 3 s on" }
                 }
                 li {
-                    strong { (span(&rms, |value| format!("{value:.2}\u{a0}N·m"))) }
+                    strong { (span(rms, |value| format!("{value:.2}\u{a0}N·m"))) }
                     span { "RMS between our torques and the published recordings, by joint, from 3 s on, last 80 % of the phase" }
                 }
                 li {
-                    strong {
-                        @for (index, (_, stride)) in summary.stride.chain_mm.iter().enumerate() {
-                            @if index > 0 { ", " }
-                            (format!("{stride:.1}"))
-                        }
-                        "\u{a0}mm"
-                    }
-                    span {
-                        "advance of the shoulder per pull in the planned chain, "
-                        @for (index, (gait, _)) in summary.stride.chain_mm.iter().enumerate() {
-                            @if index > 0 { ", " }
-                            (gait)
-                        }
-                    }
+                    strong { (strides.join(", ")) "\u{a0}mm" }
+                    span { "advance of the shoulder per pull in the planned chain, " (gaits.join(", ")) }
                 }
             }
         }
@@ -87,30 +66,21 @@ pub(crate) fn contacts(summary: &Summary, numbers: &Numbers) -> Markup {
 }
 
 fn contact_table(story: &ContactStory) -> Markup {
+    let caption = html! {
+        strong { (story.gait) } ", " (story.duration_s) " s: "
+        @match story.carried_from_percent {
+            Some(percent) => { "toes and elbows carry from " (format!("{percent:.0}")) " % of the phase on" }
+            None => { "toes and elbows never carry to the end" }
+        }
+        "; torso and legs take " (format!("{:.0}", story.body_share_percent))
+        " % of the force over the whole phase."
+    };
+    let tenths = story.tenths_percent.iter().enumerate();
     html! {
-        div.scroll { table {
-            caption {
-                strong { (story.gait) } ", " (story.duration_s) " s: "
-                @match story.carried_from_percent {
-                    Some(percent) => { "toes and elbows carry from " (format!("{percent:.0}")) " % of the phase on" }
-                    None => { "toes and elbows never carry to the end" }
-                }
-                "; torso and legs take " (format!("{:.0}", story.body_share_percent))
-                " % of the force over the whole phase."
-            }
-            thead { tr {
-                th scope="col" { "phase" }
-                @for part in ["toes", "elbows and hands", "torso", "legs"] { th scope="col" { (part) } }
-            } }
-            tbody {
-                @for (tenth, shares) in story.tenths_percent.iter().enumerate() {
-                    tr {
-                        td { (tenth * 10) "–" (tenth * 10 + 10) " %" }
-                        @for share in shares { td { (bar(*share)) (format!("{share:.0} %")) } }
-                    }
-                }
-            }
-        } }
+        (table(caption, &["phase", "toes", "elbows and hands", "torso", "legs"], tenths.map(|(tenth, shares)| html! {
+            td { (tenth * 10) "–" (tenth * 10 + 10) " %" }
+            @for share in shares { td { (bar(*share)) (format!("{share:.0} %")) } }
+        })))
     }
 }
 
@@ -119,35 +89,23 @@ fn bar(percent: f64) -> Markup {
 }
 
 pub(crate) fn costs(summary: &Summary) -> Markup {
-    let rows = |gait: &'static str| summary.costs.iter().filter(move |row| row.gait == gait);
+    let of = |gait: &'static str| summary.costs.iter().filter(move |row| row.gait == gait);
+    let rows = of(published::NOMINAL).zip(of(published::OPTIMAL));
+    let caption = "∫ (τ²ankle + τ²knee + τ²hip + τ²shoulder) dt of one side, N²·m²·s. Ours: \
+                   simulation of this run, trapezoid rule over 50 ms means, first value held back \
+                   to 0. Published: values behind Figure 45. Below 3 s the unknown start pose of \
+                   the recordings decides the cost: reported, not tuned.";
     html! {
         section {
             h2 { "Costs, ours beside published" }
-            div.scroll { table {
-                caption {
-                    "∫ (τ²ankle + τ²knee + τ²hip + τ²shoulder) dt of one side, N²·m²·s. Ours: \
-                     simulation of this run, trapezoid rule over 50 ms means, first value held back \
-                     to 0. Published: values behind Figure 45. Below 3 s the unknown start pose of \
-                     the recordings decides the cost: reported, not tuned."
-                }
-                thead { tr {
-                    th scope="col" { "duration" }
-                    @for head in [
-                        "nominal, ours", "published", "difference",
-                        "optimal, ours", "published", "difference",
-                        "ratio, ours", "published",
-                    ] { th scope="col" { (head) } }
-                } }
-                tbody {
-                    @for (nominal, optimal) in rows(published::NOMINAL).zip(rows(published::OPTIMAL)) {
-                        tr {
-                            td { (nominal.duration_s) " s" }
-                            @for row in [nominal, optimal] { (cost_cells(row)) }
-                            (ratio_cells(summary, nominal.duration_s))
-                        }
-                    }
-                }
-            } }
+            (table(caption, &[
+                "duration", "nominal, ours", "published", "difference",
+                "optimal, ours", "published", "difference", "ratio, ours", "published",
+            ], rows.map(|(nominal, optimal)| html! {
+                td { (nominal.duration_s) " s" }
+                @for row in [nominal, optimal] { (cost_cells(row)) }
+                (ratio_cells(summary, nominal.duration_s))
+            })))
         }
     }
 }
@@ -185,12 +143,12 @@ pub(crate) fn agreement(summary: &Summary) -> Markup {
                 thead {
                     tr {
                         th scope="col" rowspan="2" { "pull" }
-                        @for joint in prone_record::pulls::JOINTS { th scope="colgroup" colspan="2" { (joint) } }
+                        @for joint in JOINTS { th scope="colgroup" colspan="2" { (joint) } }
                     }
-                    tr { @for _ in prone_record::pulls::JOINTS { th scope="col" { "RMS" } th scope="col" { "corr." } } }
+                    tr { @for _ in JOINTS { th scope="col" { "RMS" } th scope="col" { "corr." } } }
                 }
                 tbody {
-                    @for joints in summary.agreement.chunks(prone_record::pulls::JOINTS.len()) {
+                    @for joints in summary.agreement.chunks(JOINTS.len()) {
                         tr {
                             @if let Some(first) = joints.first() {
                                 td { (first.gait) ", " (first.duration_s) " s" }
@@ -209,6 +167,7 @@ pub(crate) fn agreement(summary: &Summary) -> Markup {
 
 pub(crate) fn stride(summary: &Summary, numbers: &Numbers) -> Markup {
     let [first, second] = summary.stride.published_robot_mm_per_cycle;
+    let caption = numbers.fill(&Prose::shipped().stride);
     html! {
         section {
             h2 { "Stride and heights" }
@@ -229,26 +188,19 @@ pub(crate) fn stride(summary: &Summary, numbers: &Numbers) -> Markup {
                 }
                 "."
             }
-            div.scroll { table {
-                caption {
-                    (numbers.fill(&Prose::shipped().stride))
+            (table(caption, &["pull", "advance", "to the left", "highest point", "head"], summary.runs.iter().map(|run| html! {
+                td { (run.gait) ", " (run.duration_s) " s" }
+                @for value in [run.advance_mm, run.lateral_mm, run.top_mm, run.head_top_mm] {
+                    // A rounded zero has no sign.
+                    td { (format!("{:.1} mm", (value * 10.0).round() / 10.0 + 0.0)) }
                 }
-                thead { tr {
-                    @for head in ["pull", "advance", "to the left", "highest point", "head"] { th scope="col" { (head) } }
-                } }
-                tbody { @for run in &summary.runs { tr {
-                    td { (run.gait) ", " (run.duration_s) " s" }
-                    @for value in [run.advance_mm, run.lateral_mm, run.top_mm, run.head_top_mm] {
-                        // A rounded zero has no sign.
-                        td { (format!("{:.1} mm", (value * 10.0).round() / 10.0 + 0.0)) }
-                    }
-                } } }
-            } }
+            })))
         }
     }
 }
 
 pub(crate) fn table_crawl(summary: &Summary, info: &RunInfo) -> Markup {
+    let caption = "Two experiments, ours in simulation beside the published ones on the robot.";
     html! {
         @if let Some(first) = summary.table.first() {
             p {
@@ -266,35 +218,28 @@ pub(crate) fn table_crawl(summary: &Summary, info: &RunInfo) -> Markup {
                 }
             }
         }
-        div.scroll { table {
-            caption { "Two experiments, ours in simulation beside the published ones on the robot." }
-            thead { tr {
-                @for head in [
-                    "cycles", "distance, ours", "published", "time, ours", "published",
-                    "per cycle, ours", "published", "speed, ours", "published", "touched, ours",
-                ] { th scope="col" { (head) } }
-            } }
-            tbody { @for row in &summary.table { tr {
-                @let (ours, theirs) = (&row.ours, &row.published);
-                td { (theirs.cycles) }
-                td { (format!("{:.1} mm", ours.distance_mm)) }
-                td { (format!("{:.1} mm", theirs.distance_mm)) }
-                td { (format!("{:.1} s", ours.time_s)) }
-                td { (format!("{:.0} s", theirs.time_s)) }
-                td { (format!("{:.1} mm", ours.mm_per_cycle)) }
-                td { (format!("{:.1} mm", theirs.distance_mm / theirs.cycles as f64)) }
-                td { (format!("{:.1} mm/s", ours.mm_per_s)) }
-                td { (format!("{:.1} mm/s", theirs.distance_mm / theirs.time_s)) }
-                td {
-                    @if ours.contacts.is_empty() { "nothing" }
-                    @for (index, contact) in ours.contacts.iter().enumerate() {
-                        @if index > 0 { "; " }
-                        (contact.obstacle) " with " (contact.body)
-                        (format!(" for {:.1} s, up to {:.0} N", contact.seconds, contact.peak_n))
-                    }
+        (table(caption, &[
+            "cycles", "distance, ours", "published", "time, ours", "published",
+            "per cycle, ours", "published", "speed, ours", "published", "touched, ours",
+        ], summary.table.iter().map(|TableExperiment { ours, published, .. }| html! {
+            td { (published.cycles) }
+            td { (format!("{:.1} mm", ours.distance_mm)) }
+            td { (format!("{:.1} mm", published.distance_mm)) }
+            td { (format!("{:.1} s", ours.time_s)) }
+            td { (format!("{:.0} s", published.time_s)) }
+            td { (format!("{:.1} mm", ours.mm_per_cycle)) }
+            td { (format!("{:.1} mm", published.mm_per_cycle())) }
+            td { (format!("{:.1} mm/s", ours.mm_per_s)) }
+            td { (format!("{:.1} mm/s", published.distance_mm / published.time_s)) }
+            td {
+                @if ours.contacts.is_empty() { "nothing" }
+                @for (index, contact) in ours.contacts.iter().enumerate() {
+                    @if index > 0 { "; " }
+                    (contact.obstacle) " with " (contact.body)
+                    (format!(" for {:.1} s, up to {:.0} N", contact.seconds, contact.peak_n))
                 }
-            } } }
-        } }
+            }
+        })))
     }
 }
 
@@ -308,19 +253,15 @@ pub(crate) fn clamps(summary: &Summary, numbers: &Numbers, family: Option<&str>)
                 @else { (prose.clamps) }
                 @if let Some(robot) = prose.of_robot(family) { " " (numbers.fill(&robot.clamps)) }
             }
-            div.scroll { table {
-                caption { "Planned gait, sampled every 1 % of the phase; ours." }
-                thead { tr {
-                    @for head in ["gait", "joint", "samples", "phase", "largest cut"] { th scope="col" { (head) } }
-                } }
-                tbody { @for clamp in &summary.clamps { tr {
-                    td { (clamp.gait) }
-                    td { (clamp.joint) }
-                    td { (clamp.samples) " of " (clamp.of_samples) }
-                    td { (format!("{:.0}–{:.0} %", clamp.from_percent, clamp.to_percent)) }
-                    td { (format!("{:+.2}°", clamp.largest_deg)) }
-                } } }
-            } }
+            (table("Planned gait, sampled every 1 % of the phase; ours.", &[
+                "gait", "joint", "samples", "phase", "largest cut",
+            ], summary.clamps.iter().map(|clamp| html! {
+                td { (clamp.gait) }
+                td { (clamp.joint) }
+                td { (clamp.samples) " of " (clamp.of_samples) }
+                td { (format!("{:.0}–{:.0} %", clamp.from_percent, clamp.to_percent)) }
+                td { (format!("{:+.2}°", clamp.largest_deg)) }
+            })))
         }
     }
 }
@@ -332,19 +273,15 @@ pub(crate) fn mappings(summary: &Summary, numbers: &Numbers) -> Markup {
             @if summary.robot.as_ref().is_some_and(|robot| robot.published.is_some()) {
                 p { (numbers.fill(&Prose::shipped().mappings)) }
             }
-            div.scroll { table {
-                caption { "Cost of the same gait under both mappings, ours, N²·m²·s." }
-                thead { tr {
-                    @for head in ["gait", "duration", "original", "exact", "ratio"] { th scope="col" { (head) } }
-                } }
-                tbody { @for row in &summary.mappings { tr {
-                    td { (row.gait) }
-                    td { (row.duration_s) " s" }
-                    td { (format!("{:.3}", row.own_n2m2s)) }
-                    td { (format!("{:.3}", row.exact_n2m2s)) }
-                    td { (format!("{:.3}", row.exact_n2m2s / row.own_n2m2s)) }
-                } } }
-            } }
+            (table("Cost of the same gait under both mappings, ours, N²·m²·s.", &[
+                "gait", "duration", "original", "exact", "ratio",
+            ], summary.mappings.iter().map(|row| html! {
+                td { (row.gait) }
+                td { (row.duration_s) " s" }
+                td { (format!("{:.3}", row.own_n2m2s)) }
+                td { (format!("{:.3}", row.exact_n2m2s)) }
+                td { (format!("{:.3}", row.exact_n2m2s / row.own_n2m2s)) }
+            })))
         }
     }
 }
@@ -363,7 +300,7 @@ pub(crate) fn differences(numbers: &Numbers, family: Option<&str>) -> Markup {
 
 /// Under which conditions a reproduction was made: entries of a list.
 pub(crate) fn study_facts(info: &RunInfo) -> Markup {
-    let options = &info.options;
+    let (options, robot) = (&info.options, &info.robot);
     let durations: Vec<String> = options.durations_s.iter().map(f64::to_string).collect();
     html! {
         @for gait in &options.gaits {
@@ -371,7 +308,7 @@ pub(crate) fn study_facts(info: &RunInfo) -> Markup {
             dd { (gait.description) "; mapping " (gait.mapping) ", arms " (gait.arm) }
         }
         dt { "durations" } dd { (durations.join(", ")) " s" }
-        dt { "robot" } dd { (info.robot.name) ", version " (info.robot.version_name()) ", " (info.robot.folder) ", SHA-256 " (info.robot.sha256) }
+        dt { "robot" } dd { (robot.name) ", version " (robot.version_name()) ", " (robot.folder) ", SHA-256 " (robot.sha256) }
         dt { "time step" } dd { (options.time_step_s * 1e3) " ms" }
         dt { "contact regime" } dd { (options.regime) ": friction " (options.friction) ", impratio " (options.impratio) }
         dt { "servo" } dd {
@@ -390,27 +327,14 @@ pub(crate) fn study_facts(info: &RunInfo) -> Markup {
     }
 }
 
-pub(crate) fn optional(value: Option<f64>, show: impl Fn(f64) -> String) -> String {
-    value.map_or_else(|| "–".to_owned(), show)
-}
-
-fn percent(ratio: f64) -> String {
-    format!("{:.0} %", ratio * 100.0)
-}
-
 /// Smallest to largest.
-fn span(values: &[f64], show: impl Fn(f64) -> String) -> String {
+fn span(values: impl Iterator<Item = f64>, show: impl Fn(f64) -> String) -> String {
+    let values: Vec<f64> = values.collect();
     let low = values.iter().copied().min_by(f64::total_cmp);
     let high = values.iter().copied().max_by(f64::total_cmp);
-    match low.zip(high) {
+    match low.zip(high).map(|(low, high)| (show(low), show(high))) {
         None => "no pull of 3 s or more".to_owned(),
-        Some((low, high)) => {
-            let (low, high) = (show(low), show(high));
-            if low == high {
-                low
-            } else {
-                format!("{low} to {high}")
-            }
-        }
+        Some((low, high)) if low == high => low,
+        Some((low, high)) => format!("{low} to {high}"),
     }
 }

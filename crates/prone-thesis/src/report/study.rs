@@ -7,70 +7,47 @@ use crate::prose::Numbers;
 use crate::published;
 use crate::run_info::RunInfo;
 use crate::summary::Summary;
-use prone_record::figure_entry::FigureEntry;
-use prone_record::pulls::{ChainRecord, CostRecord, JOINTS, PullRecord, PullRow};
+use prone_record::pulls::{CostRecord, JOINTS, PullRecord, PullRow};
 use prone_record::tables::{ARM_JOINTS, torque_file_name};
-use prone_report::figures::{Figure, FigureError, study_figures};
-use prone_report::report::{Cut, Folder, PublishedRun, ReportError, chains};
+use prone_report::figures::study_figures;
+use prone_report::report::{Folder, Line, PublishedRun, ReportError, Run, chains};
 
 /// A pull whose last row is nearer to its end than this is whole, percent of the phase.
 const END: f64 = 1e-6;
 
-/// What a reproduction left behind.
-pub(crate) struct StudyRun {
-    pub(crate) info: RunInfo,
-    pub(crate) summary: Summary,
-    pub(crate) chains: Vec<ChainRecord>,
-    pub(crate) pulls: Vec<PullRecord>,
-    pub(crate) costs: Vec<CostRecord>,
-    pub(crate) recorded: Vec<FigureEntry>,
-    pub(crate) cuts: Vec<Cut>,
+/// What a reproduction says beside its figures.
+struct StudyRun {
+    info: RunInfo,
+    summary: Summary,
 }
 
-impl StudyRun {
-    pub(crate) fn read(folder: &Folder) -> Result<Self, ReportError> {
-        let info: RunInfo = folder.run()?;
-        let mut cuts = Vec::new();
-        let gaits: Vec<&str> = info
-            .options
-            .gaits
-            .iter()
-            .map(|gait| gait.name.as_str())
-            .collect();
-        let chains = chains::read(folder, Some(&gaits), &mut cuts)?;
-        let mut pulls = Vec::new();
-        for gait in &gaits {
-            for &duration_s in &info.options.durations_s {
-                pulls.push(pull(folder, gait, duration_s, &mut cuts)?);
-            }
+/// Reads a reproduction; figures 25, 26, 34 and 36 to 45 are drawn from its tables.
+pub(crate) fn read(folder: &Folder) -> Result<Run, ReportError> {
+    let info: RunInfo = folder.run()?;
+    let mut cuts = Vec::new();
+    let gaits = info.options.gaits.iter();
+    let gaits: Vec<&str> = gaits.map(|gait| gait.name.as_str()).collect();
+    let chains = chains::read(folder, Some(&gaits), &mut cuts)?;
+    let mut pulls = Vec::new();
+    for gait in &gaits {
+        for &duration_s in &info.options.durations_s {
+            pulls.push(pull(folder, gait, duration_s, &mut cuts)?);
         }
-        let expected = gaits.len() * info.options.durations_s.len();
-        Ok(Self {
-            summary: folder.json("summary.json")?,
-            recorded: folder.figures()?,
-            costs: costs(folder, expected, &mut cuts)?,
-            info,
-            chains,
-            pulls,
-            cuts,
-        })
     }
+    let costs = costs(folder, pulls.len(), &mut cuts)?;
+    let drawings = study_figures(&published::FIGURES, &chains, &pulls, &costs);
+    let (robot, facts) = (info.robot.name.clone(), sections::study_facts(&info));
+    let summary = folder.json("summary.json")?;
+    let mut run = Run::published(folder, Box::new(StudyRun { info, summary }));
+    run.drawings = folder.drawn(drawings)?;
+    run.recorded = folder.figures()?;
+    run.shortfalls = cuts;
+    run.robot = Some(robot);
+    run.facts = facts;
+    Ok(run)
 }
 
 impl PublishedRun for StudyRun {
-    /// Figures 25, 26, 34 and 36 to 45.
-    fn drawings(&self) -> Result<Vec<Figure>, FigureError> {
-        study_figures(&published::FIGURES, &self.chains, &self.pulls, &self.costs)
-    }
-
-    fn recorded(&self) -> &[FigureEntry] {
-        &self.recorded
-    }
-
-    fn shortfalls(&self) -> Vec<String> {
-        self.cuts.iter().map(ToString::to_string).collect()
-    }
-
     fn results(&self) -> Markup {
         sections::results(&self.summary)
     }
@@ -102,38 +79,30 @@ impl PublishedRun for StudyRun {
             (sections::differences(&numbers, family))
         }
     }
-
-    fn facts(&self) -> Markup {
-        sections::study_facts(&self.info)
-    }
 }
 
 fn pull(
     folder: &Folder,
     gait: &str,
     duration_s: f64,
-    cuts: &mut Vec<Cut>,
+    cuts: &mut Vec<String>,
 ) -> Result<PullRecord, ReportError> {
     let mut pull = PullRecord {
         gait: gait.to_owned(),
         duration_s,
         rows: Vec::new(),
     };
-    let mut table = folder.table(&format!("torques/{}", torque_file_name(&pull)))?;
+    let table = folder.table(&format!("torques/{}", torque_file_name(&pull)))?;
     let [time, percent] = table.columns(["time_s", "cycle_percent"])?;
-    let mut torques = [time; 4];
-    for (torque, joint) in torques.iter_mut().zip(JOINTS) {
-        *torque = table.column(&format!("{joint}_nm"))?;
-    }
-    let (mut commands, mut angles) = ([time; 7], [time; 7]);
-    for (index, joint) in JOINTS.iter().chain(&ARM_JOINTS).enumerate() {
-        commands[index] = table.column(&format!("{joint}_cmd_rad"))?;
-        angles[index] = table.column(&format!("{joint}_rad"))?;
-    }
+    let torques = table.columns(JOINTS.map(|joint| format!("{joint}_nm")))?;
+    let ([ankle, knee, hip, shoulder], [roll, upper, lower]) = (JOINTS, ARM_JOINTS);
+    let joints = [ankle, knee, hip, shoulder, roll, upper, lower];
+    let commands = table.columns(joints.map(|joint| format!("{joint}_cmd_rad")))?;
+    let angles = table.columns(joints.map(|joint| format!("{joint}_rad")))?;
     let contacts = table.columns(["toe_n", "elbow_n", "torso_n", "leg_n"])?;
     let [top, head_top] = table.columns(["top_mm", "head_top_mm"])?;
     let mut before = 0.0;
-    pull.rows = table.rows(|line| {
+    let read = |line: &Line<'_>| {
         let row = PullRow {
             time_s: line.number(time)?,
             cycle_percent: line.number(percent)?,
@@ -147,34 +116,29 @@ fn pull(
         let forward = row.time_s > before;
         before = row.time_s;
         forward.then_some(row)
+    };
+    pull.rows = table.all_rows(cuts, read, |rows| {
+        rows.last()
+            .is_some_and(|last| last.cycle_percent >= 100.0 - END)
     });
-    let end = pull.rows.last().map_or(0.0, |row| row.cycle_percent);
-    if end < 100.0 - END {
-        table.end_early();
-    }
-    cuts.extend(table.cut());
     Ok(pull)
 }
 
 fn costs(
     folder: &Folder,
     expected: usize,
-    cuts: &mut Vec<Cut>,
+    cuts: &mut Vec<String>,
 ) -> Result<Vec<CostRecord>, ReportError> {
-    let mut table = folder.table("costs.csv")?;
+    let table = folder.table("costs.csv")?;
     let [gait, duration, cost, published] =
         table.columns(["gait", "duration_s", "cost_n2m2s", "published_n2m2s"])?;
-    let costs = table.rows(|line| {
+    let read = |line: &Line<'_>| {
         Some(CostRecord {
             gait: line.text(gait).to_owned(),
             duration_s: line.number(duration)?,
             cost_n2m2s: line.number(cost)?,
             published_n2m2s: line.optional(published).ok()?,
         })
-    });
-    if costs.len() < expected {
-        table.end_early();
-    }
-    cuts.extend(table.cut());
-    Ok(costs)
+    };
+    Ok(table.all_rows(cuts, read, |costs| costs.len() >= expected))
 }
