@@ -68,7 +68,7 @@ fn refused(folder: &str, error: &CompiledRobotError) -> Failure {
         // It names it itself.
         CompiledRobotError::Stale { .. } => String::new(),
         CompiledRobotError::FormatVersion { .. }
-        | CompiledRobotError::Read { .. }
+        | CompiledRobotError::Read(_)
         | CompiledRobotError::Json(_)
         | CompiledRobotError::Format { .. }
         | CompiledRobotError::Violation { .. } => {
