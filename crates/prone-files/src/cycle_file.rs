@@ -39,7 +39,8 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use prone::gait::cycle::{Approach, Cycle, Easing, Steering, Waypoint};
-use prone::gait::{Curve, Gait, PhaseDuration};
+use prone::gait::{Gait, LimitsPolicy, PhaseDuration};
+use prone::mapping::{ArmMode, MappingVariant};
 
 use crate::curve_table::{self, CurveTable};
 use crate::error::{FileError, Source, line_and_column};
@@ -72,7 +73,7 @@ pub fn parse(file: &str, text: &str) -> Result<Cycle, FileError> {
         PhaseDuration::new(seconds).map_err(|error| source.error(pull.duration_s.span(), error))?;
     let mut company = BTreeMap::new();
     for (joint, curve) in pull.joints {
-        company.insert(joint, reader.curve(curve)?);
+        company.insert(joint, curve.read(source)?);
     }
     let mut recovery = Vec::with_capacity(table.recovery.len());
     for waypoint in table.recovery {
@@ -82,12 +83,12 @@ pub fn parse(file: &str, text: &str) -> Result<Cycle, FileError> {
         pull: Gait {
             name: table.name.into_inner(),
             description: table.description,
-            knee: reader.curve(pull.knee)?,
-            hip: reader.curve(pull.hip)?,
-            upper_arm: reader.curve(pull.upper_arm)?,
-            mapping: table.mapping.into(),
-            arm: table.arm.into(),
-            limits: table.limits.into(),
+            knee: pull.knee.read(source)?,
+            hip: pull.hip.read(source)?,
+            upper_arm: pull.upper_arm.read(source)?,
+            mapping: table.mapping,
+            arm: table.arm,
+            limits: table.limits,
         },
         pull_duration,
         company,
@@ -183,12 +184,12 @@ struct CycleFile {
     name: Spanned<String>,
     #[serde(default)]
     description: String,
-    #[serde(default)]
-    mapping: MappingName,
-    #[serde(default)]
-    arm: ArmName,
-    #[serde(default)]
-    limits: LimitsName,
+    #[serde(default, with = "MappingName")]
+    mapping: MappingVariant,
+    #[serde(default, with = "ArmName")]
+    arm: ArmMode,
+    #[serde(default, with = "LimitsName")]
+    limits: LimitsPolicy,
     pull: PullTable,
     #[serde(default)]
     recovery: Vec<WaypointTable>,
@@ -212,8 +213,8 @@ struct PullTable {
 struct WaypointTable {
     name: Spanned<String>,
     time_s: Spanned<f64>,
-    #[serde(default)]
-    easing: EasingName,
+    #[serde(default, with = "EasingName")]
+    easing: Easing,
     #[serde(default)]
     joints_deg: BTreeMap<String, Spanned<f64>>,
     #[serde(default)]
@@ -224,8 +225,8 @@ struct WaypointTable {
 #[serde(deny_unknown_fields)]
 struct ApproachTable {
     time_s: Spanned<f64>,
-    #[serde(default)]
-    easing: EasingName,
+    #[serde(default, with = "EasingName")]
+    easing: Easing,
 }
 
 #[derive(Debug, Deserialize)]
@@ -238,35 +239,19 @@ struct SteeringTable {
     joints: BTreeMap<String, Spanned<f64>>,
 }
 
-#[derive(Debug, Clone, Copy, Default, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Deserialize)]
+#[serde(remote = "Easing", rename_all = "kebab-case")]
 enum EasingName {
-    #[default]
     Smoothstep,
     Linear,
 }
 
-impl From<EasingName> for Easing {
-    fn from(name: EasingName) -> Self {
-        match name {
-            EasingName::Smoothstep => Self::Smoothstep,
-            EasingName::Linear => Self::Linear,
-        }
-    }
-}
-
+/// Reads the parts of a file, and points at what is wrong.
 struct Reader<'a> {
     source: Source<'a>,
 }
 
 impl Reader<'_> {
-    fn curve(&self, curve: CurveTable) -> Result<Curve, FileError> {
-        let span = curve.span();
-        curve
-            .into_curve()
-            .map_err(|error| self.source.error(span, error))
-    }
-
     fn waypoint(&self, table: WaypointTable) -> Result<Waypoint, FileError> {
         if table.name.get_ref().trim().is_empty() {
             return Err(self
@@ -292,17 +277,14 @@ impl Reader<'_> {
         })
     }
 
-    fn approach(&self, time: &Spanned<f64>, easing: EasingName) -> Result<Approach, FileError> {
+    fn approach(&self, time: &Spanned<f64>, easing: Easing) -> Result<Approach, FileError> {
         let seconds = *time.get_ref();
         let (least, most) = Cycle::STRETCH_SECONDS;
         if !(least..=most).contains(&seconds) {
             let message = format!("time_s must be {least} to {most} s, not {seconds}");
             return Err(self.source.error(time.span(), message));
         }
-        Ok(Approach {
-            seconds,
-            easing: easing.into(),
-        })
+        Ok(Approach { seconds, easing })
     }
 
     fn steering(&self, table: SteeringTable) -> Result<Steering, FileError> {
