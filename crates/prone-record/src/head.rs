@@ -86,6 +86,17 @@ impl<C> Head<C> {
 }
 
 impl Head {
+    /// The same head with the command as a type.
+    pub(crate) fn with<C>(self, command: C) -> Head<C> {
+        Head {
+            program: self.program,
+            version: self.version,
+            commit: self.commit,
+            command,
+            engine: self.engine,
+        }
+    }
+
     /// Reads the head of a result folder of this version of the program, and the whole `run.json`.
     ///
     /// # Errors

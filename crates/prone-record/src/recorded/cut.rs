@@ -39,6 +39,16 @@ pub enum Damage {
         /// What stands there, its beginning.
         text: String,
     },
+    /// A value that no row can have.
+    #[error("{column} is {text:?}, and must be {bound}")]
+    Outside {
+        /// Name of the column.
+        column: String,
+        /// What stands there, its beginning.
+        text: String,
+        /// What may stand there.
+        bound: String,
+    },
     /// A row is missing, or is twice there.
     #[error("{found} s, where the row of {due:.4} s is due")]
     Time {

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use prone_files::compiled_robot::CompiledRobotError;
+use prone_files::text_file;
 
 use crate::head::HeadError;
 use crate::record_info::FORMAT;
@@ -57,27 +58,14 @@ pub enum ReadError {
     #[error(transparent)]
     Robot(#[from] CompiledRobotError),
     /// A file cannot be read.
-    #[error("cannot read {file}: {source}")]
-    File {
-        /// The file's path.
-        file: String,
-        /// Why.
-        source: std::io::Error,
-    },
-    /// A JSON file is not what it should be.
-    #[error("{file}: {source}")]
-    Json {
-        /// The file's path.
-        file: String,
-        /// Where and why.
-        source: serde_json::Error,
-    },
-    /// `run.json` or the model contradicts itself or the tables.
+    #[error(transparent)]
+    File(#[from] text_file::ReadError),
+    /// A file is not what it should be, or contradicts itself or another one.
     #[error("{file}: {problem}")]
-    Model {
+    Content {
         /// The file's path.
         file: String,
-        /// What is wrong.
+        /// What is wrong, and where.
         problem: String,
     },
     /// A table lacks a column.
@@ -107,9 +95,6 @@ pub(super) fn text(folder: &Path, file: &'static str) -> Result<String, ReadErro
             folder: folder.display().to_string(),
             reason: format!("it has no {file}"),
         }),
-        Err(source) => Err(ReadError::File {
-            file: path.display().to_string(),
-            source,
-        }),
+        Err(source) => Err(text_file::ReadError { path, source }.into()),
     }
 }

@@ -114,7 +114,7 @@ impl CrawlRun {
         // The crawl of a reproduction has its pictures beside those of the pulls.
         let recorded = match record.run.head.command {
             Command::Crawl if has(FIGURES_FILE) => folder.figures()?,
-            Command::Crawl | Command::ReproducePull | Command::ReproduceCrawl => Vec::new(),
+            _ => Vec::new(),
         };
         let replay = view::record::of(&record);
         let mut gaps = named(&folder, replay.gaps());

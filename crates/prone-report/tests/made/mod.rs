@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use prone::robot::{BodyId, JointId, Robot, SideLayout};
 use prone_files::compiled_robot::CompiledRobot;
 use prone_files::shipped;
-use prone_record::crawl_tables;
+use prone_record::record_columns;
 
 /// Times of the rows of a whole record, s.
 const TIMES_S: [f64; 3] = [0.02, 0.04, 0.06];
@@ -98,7 +98,7 @@ fn run(robot: &CompiledRobot, origin: &Value, record: &Value, options: &Value) -
 pub(crate) fn whole(folder: &Path) {
     let nao = nao();
     let robot = nao.robot();
-    let channels = crawl_tables::channels(robot);
+    let channels = record_columns::channels(robot);
     let origin = json!({
         "kind": "simulated", "engine": "by hand", "name": "locomotion", "friction": 0.7,
         "impratio": 10.0, "effort_limit": "the maker's", "stops": "the maker's",
@@ -134,7 +134,7 @@ pub(crate) fn whole(folder: &Path) {
     }
     rows += "\n";
     for (index, time_s) in TIMES_S.into_iter().enumerate() {
-        write!(rows, "{time_s:.4},1,pull,{index}").unwrap();
+        write!(rows, "{time_s:.4},1,pull,0.{index}").unwrap();
         for column in &columns {
             let value = match *column {
                 "qw" | "contacts" => 1.0,
