@@ -14,5 +14,5 @@ mod run;
 mod setup;
 pub mod summary;
 
-pub use run::{Conditions, GaitSource, PastObstacles};
+pub use run::{GaitSource, PastObstacles};
 pub use setup::{CrawlRunError, CrawlSetup, CrawlSetupError, RefusedCycle};

@@ -589,6 +589,7 @@ fn a_joint_without_columns_is_said() {
     let record = read(&[(MODEL_FILE, Some(&MODEL.replace("\"A\"", "\"B\"")))]).unwrap();
     assert_eq!(record.joints, ["A", "B"]);
     assert!(!record.has_all_angles());
+    assert_eq!(record.missing_angle(), Some(("B", 0.02)));
     assert_eq!(record.unrecorded()[0], "the angle of B was not recorded");
 }
 

@@ -4,8 +4,8 @@ use prone::robot::Robot;
 use prone_record::crawl_summary::JointSummary;
 use prone_sim::crawl::Effort;
 
-/// In the order of the robot's joints.
-pub(super) fn of(robot: &Robot, effort: &Effort) -> Vec<JointSummary> {
+/// What each motor of a robot did, in the order of its joints.
+pub(super) fn summaries(robot: &Robot, effort: &Effort) -> Vec<JointSummary> {
     let pairs = robot.joints.iter().zip(&effort.joints);
     let summaries = pairs.map(|(joint, did)| JointSummary {
         joint: joint.name.clone(),

@@ -5,7 +5,7 @@ use prone_sim::crawl::{Crawl, ROW_STEP};
 use prone_sim::{LoadedRobot, World};
 
 use super::instants;
-use super::run::{Conditions, GaitSource, Subject, record_info};
+use super::run::{GaitSource, Subject, record_info};
 use super::{angles, frames, model};
 use crate::frames::FramesError;
 use prone_files::compiled_robot::{CompiledRobot, Violation};
@@ -14,7 +14,7 @@ use prone_record::crawl_tables as tables;
 use prone_record::crawl_tables::Instant;
 use prone_record::output::{Artefacts, RUN_FILE, json};
 use prone_record::program::Program;
-use prone_record::record_info::RecordInfo;
+use prone_record::record_info::{CrawlOptions, Options, RecordInfo};
 use prone_record::recorded::{CONTACTS_FILE, Command, MODEL_FILE, ROBOT_FILE, ROWS_FILE};
 use prone_report::figure_list::FigureList;
 use prone_report::figures::{self, FigureError, PNG_SCALE};
@@ -49,7 +49,7 @@ pub struct Recording<'a> {
     /// With which cycle.
     pub gait: &'a GaitSource,
     /// Under which conditions.
-    pub conditions: &'a Conditions,
+    pub conditions: &'a CrawlOptions,
     /// What was measured, with rows.
     pub crawl: &'a Crawl,
     /// The same in figures.
@@ -111,7 +111,7 @@ pub fn numbers(
         command_step_s: world.robot().control.command_step,
         rows: crawl.rows.len(),
         row_step_s: ROW_STEP,
-        options: conditions.recorded(),
+        options: Options::Crawl(conditions.clone()),
     };
     let start = crawl
         .cycles
@@ -139,7 +139,7 @@ pub(super) fn shown(
 ) -> Result<Artefacts, RecordError> {
     let mut artefacts = Artefacts::new();
     artefacts.insert(RUN_FILE.into(), json(info)?);
-    artefacts.insert(MODEL_FILE.into(), json(&model::of(world))?);
+    artefacts.insert(MODEL_FILE.into(), json(&model::describe(world))?);
     let rows = tables::rows(world.robot(), start, instants)?;
     artefacts.insert(ROWS_FILE.into(), rows);
     let contacts = tables::contacts(world.robot(), world.obstacles(), instants)?;
