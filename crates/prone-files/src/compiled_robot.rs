@@ -37,8 +37,7 @@ use serde::{Deserialize, Serialize};
 
 use prone::robot::Robot;
 
-use document::stated;
-use place::Place;
+use place::{LONGEST_NAME, Place};
 
 use crate::error::FileError;
 use crate::plain_name::is_plain;
@@ -53,8 +52,6 @@ pub const FILE_NAME: &str = "robot.compiled.json";
 const FORMAT: &str = "prone-compiled-robot";
 /// The version of the format that is written and read.
 const FORMAT_VERSION: u64 = 1;
-/// Longest name of an engine, a family or a version, bytes.
-const LONGEST_NAME: usize = 256;
 /// Digits of a SHA-256 hash.
 const HASH_DIGITS: usize = 64;
 
@@ -76,31 +73,13 @@ pub enum CompiledRobotError {
     /// It is not JSON, or lacks or adds a key.
     #[error(transparent)]
     Json(#[from] FileError),
-    /// It is JSON of another kind.
-    #[error("{file} is no compiled robot: its format is {found:?}, not {FORMAT:?}")]
-    Format {
+    /// It is JSON of another kind or version, or holds what no robot has.
+    #[error("{file}{problem}")]
+    Content {
         /// The file.
         file: String,
-        /// What it says it is.
-        found: String,
-    },
-    /// It was written by another build.
-    #[error(
-        "{file} has version {found} of its format and this program reads version {FORMAT_VERSION}"
-    )]
-    FormatVersion {
-        /// The file.
-        file: String,
-        /// Its version.
-        found: u64,
-    },
-    /// It holds what no robot has.
-    #[error("{file}: {violation}")]
-    Violation {
-        /// The file.
-        file: String,
-        /// Where, what, and the bound.
-        violation: Violation,
+        /// What is wrong, and where; it continues the name of the file.
+        problem: String,
     },
     /// Its sources have changed since.
     #[error(
@@ -140,9 +119,9 @@ pub fn is_compiled_robot(text: &str) -> bool {
 struct Document {
     format: String,
     format_version: u64,
-    #[serde(deserialize_with = "stated")]
+    #[serde(deserialize_with = "Option::deserialize")]
     family: Option<String>,
-    #[serde(deserialize_with = "stated")]
+    #[serde(deserialize_with = "Option::deserialize")]
     version: Option<String>,
     sources_sha256: String,
     engine: String,
@@ -197,18 +176,26 @@ impl CompiledRobot {
     /// # Errors
     /// As [`CompiledRobot::read`].
     pub fn parse(file: &str, text: &str) -> Result<Self, CompiledRobotError> {
-        let file = file.to_owned();
-        let head: Head = from_json(&file, text)?;
-        if head.format != FORMAT {
-            let found = head.format;
-            return Err(CompiledRobotError::Format { file, found });
+        let wrong = |problem| CompiledRobotError::Content {
+            file: file.to_owned(),
+            problem,
+        };
+        let Head {
+            format: kind,
+            format_version: found,
+        } = from_json(file, text)?;
+        if kind != FORMAT {
+            return Err(wrong(format!(
+                " is no compiled robot: its format is {kind:?}, not {FORMAT:?}"
+            )));
         }
-        if head.format_version != FORMAT_VERSION {
-            let found = head.format_version;
-            return Err(CompiledRobotError::FormatVersion { file, found });
+        if found != FORMAT_VERSION {
+            return Err(wrong(format!(
+                " has version {found} of its format and this program reads version {FORMAT_VERSION}"
+            )));
         }
-        Self::from_document(from_json(&file, text)?)
-            .map_err(|violation| CompiledRobotError::Violation { file, violation })
+        let compiled = Self::from_document(from_json(file, text)?);
+        compiled.map_err(|violation| wrong(format!(": {violation}")))
     }
 
     /// A robot that ships with the program.

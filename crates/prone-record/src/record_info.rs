@@ -291,17 +291,6 @@ pub enum ChannelKind {
     Command,
 }
 
-impl ChannelKind {
-    /// Its name in `run.json`.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Mean => "mean over the row",
-            Self::Instant => "instant",
-            Self::Command => "command",
-        }
-    }
-}
-
 impl Extent {
     /// Tables of [`FORMAT`].
     pub const fn new(rows: usize, row_step_s: Option<f64>, channels: Vec<Channel>) -> Self {

@@ -6,7 +6,6 @@
 mod angles;
 pub mod frames;
 mod instants;
-pub mod joints;
 mod model;
 pub mod pull;
 pub mod record;

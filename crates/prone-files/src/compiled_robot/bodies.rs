@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use prone::frames::{Frame, Transform};
 use prone::robot::{Body, BodyId, ContactGroup, Joint, Motor, Range, Robot, Shape, Solid, bounds};
 
-use super::document::{optional, stated};
+use super::document::optional;
 use super::names::{Names, body_name, joint_name};
 use super::place::{Place, Violation};
 
@@ -16,10 +16,10 @@ use super::place::{Place, Violation};
 #[serde(deny_unknown_fields)]
 pub(super) struct BodyDocument {
     pub(super) name: String,
-    #[serde(deserialize_with = "stated")]
+    #[serde(deserialize_with = "Option::deserialize")]
     parent: Option<String>,
     pub(super) parent_from_body: PoseDocument,
-    #[serde(deserialize_with = "stated")]
+    #[serde(deserialize_with = "Option::deserialize")]
     joint: Option<String>,
     mass_kg: f64,
     pub(super) centre_of_mass_m: [f64; 3],
@@ -48,7 +48,7 @@ pub(super) struct JointDocument {
     effort_limit_nm: f64,
     speed_limit_rad_s: f64,
     servo_gain_nms: f64,
-    #[serde(deserialize_with = "stated")]
+    #[serde(deserialize_with = "Option::deserialize")]
     motor: Option<MotorDocument>,
 }
 
@@ -59,7 +59,7 @@ struct MotorDocument {
     ratio: f64,
     nominal_nm: f64,
     stall_nm: f64,
-    #[serde(deserialize_with = "stated")]
+    #[serde(deserialize_with = "Option::deserialize")]
     no_load_speed_rad_s: Option<f64>,
 }
 

@@ -6,7 +6,7 @@ use prone::chain::ClosedChain;
 use prone::frames::{Link, Point};
 use prone::robot::{BodyId, ChainLayout, FixedArm, PublishedChain, Robot, SideLayout};
 
-use super::document::{optional, stated};
+use super::document::optional;
 use super::names::{Names, body_name, joint_name};
 use super::place::{Place, Violation};
 
@@ -17,9 +17,9 @@ pub(super) struct ChainDocument {
     pub(super) right: SideDocument,
     pub(super) span_m: f64,
     pub(super) projected_upper_arm_m: f64,
-    #[serde(deserialize_with = "stated")]
+    #[serde(deserialize_with = "Option::deserialize")]
     published: Option<PublishedDocument>,
-    #[serde(deserialize_with = "stated")]
+    #[serde(deserialize_with = "Option::deserialize")]
     fixed_arm: Option<FixedArmDocument>,
 }
 

@@ -1,11 +1,12 @@
 //! A robot as JSON: mirrors of the types in [`prone::robot`], whose keys say the units.
 //!
-//! Bodies and joints are referred to by name. Every key has to be there, those of optional parts
-//! with `null`, and no other. Each mirror is made of its part of a robot by `new`, and checks and
+//! Bodies and joints are referred to by name. Every key has to be there, and no other: an optional
+//! part that is left out, which `Option::deserialize` refuses, is a text that was cut and not a robot
+//! without the part. Each mirror is made of its part of a robot by `new`, and checks and
 //! gives it back by `read`. Both name all fields, so that one that the domain gains does not compile
 //! until it is read, and written.
 
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Serialize};
 
 use prone::mapping;
 use prone::robot::{Body, ContactGroup, JointAngles, JointId, Robot, check_limbs};
@@ -31,7 +32,7 @@ const MOST_POSTURES: usize = 1_000;
 #[serde(deny_unknown_fields)]
 pub struct RobotDocument {
     name: String,
-    #[serde(deserialize_with = "stated")]
+    #[serde(deserialize_with = "Option::deserialize")]
     standing_height_m: Option<f64>,
     pub(super) bodies: Vec<BodyDocument>,
     pub(super) joints: Vec<JointDocument>,
@@ -39,7 +40,7 @@ pub struct RobotDocument {
     pub(super) chain: ChainDocument,
     postures: Vec<PostureDocument>,
     study: StudyDocument,
-    #[serde(deserialize_with = "stated")]
+    #[serde(deserialize_with = "Option::deserialize")]
     imu: Option<ImuDocument>,
     control: ControlDocument,
     search: SearchDocument,
@@ -170,16 +171,6 @@ fn check_whole(at: Place<'_>, robot: &Robot) -> Result<(), Violation> {
     check_limbs(robot).map_err(|error| chain.violation(error))?;
     // The chain must be a sagittal one and its arm projectable, or nothing else works.
     mapping::check_kinematics(robot).map_err(|error| chain.violation(error))
-}
-
-/// An optional part whose key must be there: one that is left out is a text that was cut, not a
-/// robot without the part.
-pub(super) fn stated<'de, D, T>(deserializer: D) -> Result<Option<T>, D::Error>
-where
-    D: Deserializer<'de>,
-    T: Deserialize<'de>,
-{
-    Option::deserialize(deserializer)
 }
 
 /// Reads a part if it is there.

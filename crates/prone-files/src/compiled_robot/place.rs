@@ -9,7 +9,7 @@ use prone::frames::{Frame, Point};
 use prone::robot::{Range, bounds};
 
 /// Longest name, bytes.
-const LONGEST_NAME: usize = 256;
+pub(super) const LONGEST_NAME: usize = 256;
 
 /// Something in a robot's document that no robot has.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

@@ -7,7 +7,6 @@ use prone_files::compiled_robot::CompiledRobotError;
 use prone_files::text_file;
 
 use crate::head::HeadError;
-use crate::record_info::FORMAT;
 
 /// Why a folder cannot be read as a record.
 #[derive(Debug, thiserror::Error)]
@@ -39,21 +38,6 @@ pub enum ReadError {
     /// There is no result of this version of the program.
     #[error(transparent)]
     Head(#[from] HeadError),
-    /// The record has another format than this build reads.
-    #[error(
-        "{file}: the record has format {found}, written by prone {version} of commit {commit}; this \
-         build of prone reads format {FORMAT}: record it anew"
-    )]
-    Format {
-        /// Path of `run.json`.
-        file: String,
-        /// Its format; records that state none have format 1.
-        found: u64,
-        /// Version of the program that wrote it.
-        version: String,
-        /// Commit that the program was built from.
-        commit: String,
-    },
     /// The compiled robot cannot be used.
     #[error(transparent)]
     Robot(#[from] CompiledRobotError),

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use serde::de::DeserializeOwned;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::ReadError;
 use super::model::MODEL_FILE;
@@ -39,12 +39,12 @@ impl RecordInfo {
         let format = run.pointer("/record/format").and_then(Value::as_u64);
         let found = format.unwrap_or(1);
         if found != FORMAT {
-            return Err(ReadError::Format {
-                file,
-                found,
-                version: head.version,
-                commit: head.commit,
-            });
+            let (version, commit) = (&head.version, &head.commit);
+            let problem = format!(
+                "the record has format {found}, written by prone {version} of commit {commit}; this \
+                 build of prone reads format {FORMAT}: record it anew"
+            );
+            return Err(ReadError::Content { file, problem });
         }
         let info = Self::of_command(command, head, run);
         let checked = info.and_then(|info| check_extent(&info.record).map(|()| info));
@@ -110,8 +110,8 @@ fn check_extent(extent: &Extent) -> Result<(), String> {
                 return Err(format!("{} is in {unit}, not in {}", place(), channel.unit));
             }
             if !is.contains(&channel.is) {
-                let (known, stated) = (is[0].name(), channel.is.name());
-                return Err(format!("{} is \"{known}\", not \"{stated}\"", place()));
+                let [known, stated] = [is[0], channel.is].map(|kind| json!(kind));
+                return Err(format!("{} is {known}, not {stated}", place()));
             }
         }
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 use csv::StringRecord;
 
 use super::{Cut, Damage, Part, ReadError};
-use crate::broken_table::{Break, BrokenTable};
+use crate::broken_table::BrokenTable;
 use crate::record_columns::labels;
 use crate::record_info::Extent;
 
@@ -98,11 +98,7 @@ impl Table {
             }
         }
         let (line, broken) = self.content.broken()?;
-        let damage = match broken {
-            Break::Unfinished => Damage::Unfinished,
-            Break::Cells { found, expected } => Damage::Cells { found, expected },
-        };
-        Some(self.cut(line, damage))
+        Some(self.cut(line, broken.into()))
     }
 
     /// Damage in the line after the last one.

@@ -4,12 +4,11 @@ use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale};
 use prone::robot::Robot;
 use prone::statics::GRAVITY;
 use prone_sim::World;
-use prone_sim::crawl::{Crawl, CycleRow};
+use prone_sim::crawl::{Crawl, CycleRow, Effort};
 
-use super::joints;
 use prone::scene::obstacle_name;
 use prone_record::crawl_summary::{
-    CalibrationStop, CrawlSummary, CycleSummary, PlateContact, SheetClamp, TopsMm,
+    CalibrationStop, CrawlSummary, CycleSummary, JointSummary, PlateContact, SheetClamp, TopsMm,
 };
 
 /// Reduces a record to figures. `until_past` says whether the crawl was to end past the obstacles.
@@ -42,8 +41,9 @@ pub fn of(
     let metres = (path_mm > 0.0).then_some(path_mm / 1e3);
     let (heat_s, work_j) = (crawl.effort.heat(robot), crawl.effort.work());
     let weight = robot.mass() * GRAVITY;
-    let joints = joints::summaries(robot, &crawl.effort);
-    let winding_loss_j = joints::winding_loss(&joints);
+    let joints = joint_summaries(robot, &crawl.effort);
+    // Nothing where that of a joint is not known.
+    let winding_loss_j: Option<f64> = joints.iter().map(|joint| joint.winding_loss_j).sum();
     let shoulders = robot.chain.sides().map(|side| side.shoulder);
     let shoulders = shoulders.map(|joint| crawl.effort.joints[joint.0]);
     let demanded = shoulders.map(|shoulder| shoulder.demanded_peak);
@@ -106,6 +106,29 @@ pub fn of(
         calibration_stops: stops.collect(),
         per_cycle,
     })
+}
+
+/// What each motor of a robot did, in the order of its joints.
+fn joint_summaries(robot: &Robot, effort: &Effort) -> Vec<JointSummary> {
+    let pairs = robot.joints.iter().zip(&effort.joints);
+    let summaries = pairs.map(|(joint, did)| JointSummary {
+        joint: joint.name.clone(),
+        effort_limit_nm: joint.effort_limit,
+        nominal_nm: joint.motor.map(|motor| motor.nominal),
+        peak_nm: did.peak,
+        rms_nm: (did.square / effort.seconds).sqrt(),
+        demanded_peak_nm: did.demanded_peak,
+        saturated_share: did.saturated / effort.seconds,
+        heat_s: joint
+            .motor
+            .map(|motor| did.square / (motor.nominal * motor.nominal)),
+        work_j: did.work,
+        winding_loss_j: joint
+            .motor
+            .and_then(|motor| motor.winding_loss())
+            .map(|watts_per_square| did.square * watts_per_square),
+    });
+    summaries.collect()
 }
 
 /// Advance of the shoulder in the planned chain, m.
