@@ -66,7 +66,6 @@ pub fn parse(file: &str, text: &str) -> Result<Cycle, FileError> {
     let source = Source { file, text };
     let table: CycleFile = source.parse()?;
     gait_file::check_name(source, &table.name)?;
-    let reader = Reader { source };
     let pull = table.pull;
     let seconds = *pull.duration_s.get_ref();
     let pull_duration =
@@ -77,7 +76,7 @@ pub fn parse(file: &str, text: &str) -> Result<Cycle, FileError> {
     }
     let mut recovery = Vec::with_capacity(table.recovery.len());
     for waypoint in table.recovery {
-        recovery.push(reader.waypoint(waypoint)?);
+        recovery.push(source.waypoint(waypoint)?);
     }
     Ok(Cycle {
         pull: Gait {
@@ -93,10 +92,10 @@ pub fn parse(file: &str, text: &str) -> Result<Cycle, FileError> {
         pull_duration,
         company,
         recovery,
-        approach: reader.approach(&table.approach.time_s, table.approach.easing)?,
+        approach: source.approach(&table.approach.time_s, table.approach.easing)?,
         steering: match table.steering {
             None => None,
-            Some(steering) => Some(reader.steering(steering)?),
+            Some(steering) => Some(source.steering(steering)?),
         },
     })
 }
@@ -246,17 +245,10 @@ enum EasingName {
     Linear,
 }
 
-/// Reads the parts of a file, and points at what is wrong.
-struct Reader<'a> {
-    source: Source<'a>,
-}
-
-impl Reader<'_> {
-    fn waypoint(&self, table: WaypointTable) -> Result<Waypoint, FileError> {
+impl Source<'_> {
+    fn waypoint(self, table: WaypointTable) -> Result<Waypoint, FileError> {
         if table.name.get_ref().trim().is_empty() {
-            return Err(self
-                .source
-                .error(table.name.span(), "a waypoint needs a name"));
+            return Err(self.error(table.name.span(), "a waypoint needs a name"));
         }
         let mut joints = BTreeMap::new();
         for (joint, angle) in table.joints_deg {
@@ -267,7 +259,7 @@ impl Reader<'_> {
             let radians = self.within(&angle, &joint, LARGEST_DEG.to_radians())?;
             if joints.insert(joint.clone(), radians).is_some() {
                 let twice = format!("{joint} is given twice, in degrees and in radians");
-                return Err(self.source.error(angle.span(), twice));
+                return Err(self.error(angle.span(), twice));
             }
         }
         Ok(Waypoint {
@@ -277,17 +269,17 @@ impl Reader<'_> {
         })
     }
 
-    fn approach(&self, time: &Spanned<f64>, easing: Easing) -> Result<Approach, FileError> {
+    fn approach(self, time: &Spanned<f64>, easing: Easing) -> Result<Approach, FileError> {
         let seconds = *time.get_ref();
         let (least, most) = Cycle::STRETCH_SECONDS;
         if !(least..=most).contains(&seconds) {
             let message = format!("time_s must be {least} to {most} s, not {seconds}");
-            return Err(self.source.error(time.span(), message));
+            return Err(self.error(time.span(), message));
         }
         Ok(Approach { seconds, easing })
     }
 
-    fn steering(&self, table: SteeringTable) -> Result<Steering, FileError> {
+    fn steering(self, table: SteeringTable) -> Result<Steering, FileError> {
         let limit = match (table.limit_deg, table.limit_rad) {
             (Some(degrees), None) => self
                 .positive(&degrees, "limit_deg", LARGEST_TURN_DEG)?
@@ -298,7 +290,7 @@ impl Reader<'_> {
             _ => {
                 let span = table.spread.span();
                 let message = "[steering] needs one of limit_deg and limit_rad";
-                return Err(self.source.error(span, message));
+                return Err(self.error(span, message));
             }
         };
         let mut joints = BTreeMap::new();
@@ -313,22 +305,22 @@ impl Reader<'_> {
         })
     }
 
-    fn within(&self, number: &Spanned<f64>, what: &str, largest: f64) -> Result<f64, FileError> {
+    fn within(self, number: &Spanned<f64>, what: &str, largest: f64) -> Result<f64, FileError> {
         let value = *number.get_ref();
         if (-largest..=largest).contains(&value) {
             return Ok(value);
         }
         let message = format!("{what} must be within -{largest}..{largest}, not {value}");
-        Err(self.source.error(number.span(), message))
+        Err(self.error(number.span(), message))
     }
 
-    fn positive(&self, number: &Spanned<f64>, what: &str, largest: f64) -> Result<f64, FileError> {
+    fn positive(self, number: &Spanned<f64>, what: &str, largest: f64) -> Result<f64, FileError> {
         let value = *number.get_ref();
         if value > 0.0 && value <= largest {
             return Ok(value);
         }
         let message = format!("{what} must be above 0, up to {largest}, not {value}");
-        Err(self.source.error(number.span(), message))
+        Err(self.error(number.span(), message))
     }
 }
 

@@ -77,7 +77,6 @@ pub(crate) fn meaning(table: Part, column: &str) -> Option<Meaning> {
     let (unit, is) = match table {
         _ if PLACE.contains(&column) => ("mm", instant),
         Part::Contacts if FORCE.contains(&column) => ("N", instant),
-        Part::Contacts => return None,
         Part::Rows if TURN.contains(&column) || column == CONTACTS => ("1", instant),
         Part::Rows if column == YAW => ("°", instant),
         Part::Rows if column == LATERAL || is_among(&tops()) => ("mm", instant),
@@ -85,7 +84,7 @@ pub(crate) fn meaning(table: Part, column: &str) -> Option<Meaning> {
         Part::Rows if column.ends_with(COMMAND_END) => ("rad", &[ChannelKind::Command][..]),
         Part::Rows if column.ends_with(ANGLE_END) => ("rad", instant),
         Part::Rows if column.ends_with(TORQUE_END) => ("N·m", mean),
-        Part::Rows => return None,
+        _ => return None,
     };
     Some(Meaning { unit, is })
 }

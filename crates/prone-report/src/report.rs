@@ -279,8 +279,10 @@ fn read(
         return Ok(runs);
     }
     let run = match folder.head.command.as_str() {
-        "crawl run" | "reproduce crawl" => Run::Crawl(Box::new(CrawlRun::read(folder)?)),
-        "reproduce pull" => Run::Pull(Box::new(PullRun::read(folder)?)),
+        "crawl run" | "reproduce crawl" | "robot record" => {
+            Run::Crawl(Box::new(CrawlRun::read(folder)?))
+        }
+        "reproduce pull" | "pull run" => Run::Pull(Box::new(PullRun::read(folder)?)),
         "optimize" | "crawl frontier" => match folder.run()? {
             SearchPlan::Pull(plan) => Run::Search(Box::new(SearchRun::read(folder, &plan)?)),
             SearchPlan::Cycle(plan) => Run::Drawn(Box::new(DrawnRun::cycles(folder, &plan.under)?)),

@@ -3,9 +3,7 @@
 //! [`summary`] reduces a record to figures, [`record`] makes every file of a record folder. Both
 //! read what [`prone_sim::crawl`] measured.
 
-mod angles;
 pub mod frames;
-mod instants;
 mod model;
 pub mod pull;
 pub mod record;

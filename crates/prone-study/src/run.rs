@@ -20,6 +20,7 @@ use prone_record::experiment::{
 use prone_record::output::Artefacts;
 use prone_record::program::Program;
 use prone_record::pulls::PullRecord;
+use prone_record::recorded::Command;
 use prone_sim::crawl::CrawlError;
 use prone_sim::pull::{self, Keep, PullError, Start};
 use prone_sim::{LoadError, LoadedRobot, World, WorldError};
@@ -322,6 +323,7 @@ impl Session {
         let keep = Keep::Shown { pictures: 0 };
         let pull = pull::run(&world, &gait, duration, Start::FirstPose, keep)?;
         let recording = PullRecording {
+            command: Command::Pull,
             robot: &robot,
             world: &world,
             gait: &gait,

@@ -358,7 +358,7 @@ fn a_pull_is_known_by_its_command() {
     for command in [Command::Pull, Command::ReproducePull] {
         let info = read(command, pull).unwrap();
         assert_eq!(info.kind(), Kind::Pull);
-        assert!(matches!(&info.options, Options::Pull(pull) if pull.duration_s == 5.0));
+        assert!(matches!(&info.options, Options::Pull(_)));
         let written = serde_json::to_string(&info.options).unwrap();
         assert_eq!(written, pull.replace(": ", ":").replace(", ", ","));
     }

@@ -1,12 +1,13 @@
 //! The files of a record folder.
 
+use prone::crawl::Stage;
+use prone::robot::Robot;
 use prone::steering::Bearing;
-use prone_sim::crawl::{Crawl, ROW_STEP};
+use prone_sim::crawl::{Crawl, ROW_STEP, Row};
 use prone_sim::{LoadedRobot, World};
 
-use super::instants;
 use super::run::{GaitSource, Subject, record_info};
-use super::{angles, frames, model};
+use super::{frames, model};
 use crate::frames::FramesError;
 use prone_files::compiled_robot::{CompiledRobot, Violation};
 use prone_record::crawl_summary::CrawlSummary;
@@ -16,8 +17,9 @@ use prone_record::output::{Artefacts, RUN_FILE, json};
 use prone_record::program::Program;
 use prone_record::record_info::{CrawlOptions, Options, RecordInfo};
 use prone_record::recorded::{CONTACTS_FILE, Command, MODEL_FILE, ROBOT_FILE, ROWS_FILE};
+use prone_record::tables::as_written;
 use prone_report::figure_list::FigureList;
-use prone_report::figures::{self, FigureError, PNG_SCALE};
+use prone_report::figures::{self, AngleRecord, AngleRow, FigureError, PNG_SCALE};
 
 /// Why a record has no files.
 #[derive(Debug, thiserror::Error)]
@@ -78,8 +80,8 @@ pub fn files(
     for frames in frames::all(world, &summary.gait, crawl)? {
         list.picture(&mut artefacts, frames.figure, frames.png);
     }
-    let angles = angles::of_crawl(world.robot(), &summary.gait, crawl);
-    if let Some(figure) = figures::crawl_angles(&angles, published)? {
+    let drawn = angles(world.robot(), &summary.gait, crawl);
+    if let Some(figure) = figures::crawl_angles(&drawn, published)? {
         let png = figure.png(PNG_SCALE)?;
         list.drawing(&mut artefacts, "figures/", figure, png);
     }
@@ -118,7 +120,7 @@ pub fn numbers(
         .first()
         .map_or_else(Default::default, |cycle| cycle.from);
     let info = record_info(robot, world, subject, program);
-    let instants: Vec<Instant<'_>> = crawl.rows.iter().map(instants::of_crawl).collect();
+    let instants: Vec<Instant<'_>> = crawl.rows.iter().map(instant).collect();
     let mut artefacts = shown(robot, world, &info, start, &instants)?;
     artefacts.insert("summary.json".into(), json(summary)?);
     artefacts.insert("cycles.csv".into(), tables::cycles(summary)?);
@@ -147,4 +149,49 @@ pub(super) fn shown(
     let compiled = CompiledRobot::new(robot.robot(), robot.files(), prone_sim::engine_version())?;
     artefacts.insert(ROBOT_FILE.into(), compiled.text().into_bytes());
     Ok(artefacts)
+}
+
+/// A row as an instant of a record.
+fn instant(row: &Row) -> Instant<'_> {
+    Instant {
+        time: row.time,
+        cycle: row.cycle,
+        s: match row.stage {
+            Stage::Pull { s, .. } => Some(s),
+            Stage::Recovery => None,
+        },
+        command: &row.command,
+        angles: &row.angles,
+        actuator_torque: &row.actuator_torque,
+        contact: row.contact,
+        forces: &row.forces,
+        ground_from_root: row.ground_from_root,
+        tops: row.tops,
+    }
+}
+
+/// The left chain of a crawl that was simulated with rows, to the digits of `rows.csv`.
+fn angles(robot: &Robot, gait: &str, crawl: &Crawl) -> AngleRecord {
+    let joints = robot.chain.left.commanded_joints();
+    let rows = crawl
+        .rows
+        .iter()
+        .filter(|row| row.cycle < AngleRecord::CYCLES);
+    let rows = rows.map(|row| AngleRow {
+        time_s: as_written(row.time, 4),
+        command_rad: joints
+            .map(|joint| as_written(row.command[joint], 6))
+            .to_vec(),
+        angle_rad: joints
+            .map(|joint| as_written(row.angles[joint], 6))
+            .to_vec(),
+    });
+    AngleRecord {
+        gait: gait.to_owned(),
+        joints: joints
+            .map(|joint| robot.joints[joint.0].name.clone())
+            .to_vec(),
+        rows: rows.collect(),
+        cycles: AngleRecord::CYCLES.min(crawl.cycles.len()),
+    }
 }
