@@ -8,9 +8,8 @@ use serde::{Deserialize, Serialize};
 use prone::frames::{Frame, Transform};
 use prone::robot::{Body, BodyId, ContactGroup, Joint, Motor, Range, Robot, Shape, Solid, bounds};
 
-use super::document::optional;
 use super::names::{Names, body_name, joint_name};
-use super::place::{Place, Violation};
+use super::place::{Place, Violation, optional};
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

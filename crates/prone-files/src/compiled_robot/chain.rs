@@ -6,9 +6,8 @@ use prone::chain::ClosedChain;
 use prone::frames::{Link, Point};
 use prone::robot::{BodyId, ChainLayout, FixedArm, PublishedChain, Robot, SideLayout};
 
-use super::document::optional;
 use super::names::{Names, body_name, joint_name};
-use super::place::{Place, Violation};
+use super::place::{Place, Violation, optional};
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -15,7 +15,7 @@ use super::bodies::{BodyDocument, JointDocument, ShapeDocument, check_moved};
 use super::chain::ChainDocument;
 use super::control::{ControlDocument, ImuDocument, SearchDocument, StudyDocument};
 use super::names::{self, Names};
-use super::place::{Place, Violation};
+use super::place::{Place, Violation, optional};
 
 /// More bodies, and so more joints, than any robot has.
 const MOST_BODIES: usize = 10_000;
@@ -171,12 +171,4 @@ fn check_whole(at: Place<'_>, robot: &Robot) -> Result<(), Violation> {
     check_limbs(robot).map_err(|error| chain.violation(error))?;
     // The chain must be a sagittal one and its arm projectable, or nothing else works.
     mapping::check_kinematics(robot).map_err(|error| chain.violation(error))
-}
-
-/// Reads a part if it is there.
-pub(super) fn optional<D, T>(
-    part: Option<D>,
-    read: impl FnOnce(D) -> Result<T, Violation>,
-) -> Result<Option<T>, Violation> {
-    part.map(read).transpose()
 }

@@ -158,3 +158,11 @@ impl Place<'_> {
         }
     }
 }
+
+/// Reads a part if it is there.
+pub(super) fn optional<D, T>(
+    part: Option<D>,
+    read: impl FnOnce(D) -> Result<T, Violation>,
+) -> Result<Option<T>, Violation> {
+    part.map(read).transpose()
+}
