@@ -11,8 +11,8 @@ use anyhow::anyhow;
 
 use prone::gait::cycle::{CheckedCycle, TimeScale};
 use prone_files::cycle_file;
-use prone_record::record_info::RecordInfo;
-use prone_record::recorded::{Command, Recorded, RecordedModel};
+use prone_record::record_info::{Kind, RecordInfo};
+use prone_record::recorded::{Recorded, RecordedModel};
 use prone_record::single_file;
 use prone_report::export::{key_frames, numpy, ros_log, table, timeline, urdf};
 
@@ -101,7 +101,7 @@ fn of_run(args: &ExportArgs, run: &RecordInfo) -> Result<(Vec<u8>, String), Fail
 /// One commanded cycle.
 fn cycle(args: &ExportArgs, run: &RecordInfo) -> Result<(Vec<u8>, String), Failure> {
     let gait = &run.gait;
-    if run.head.command == Command::ReproducePull {
+    if run.kind() == Kind::Pull {
         return Err(Failure::Input(anyhow!(
             "{} is a pull alone: xar and keyframes are a whole cycle, with its way back",
             args.run.display()

@@ -67,11 +67,9 @@ fn refused(folder: &str, error: &CompiledRobotError) -> Failure {
     let renewal = match error {
         // It names it itself.
         CompiledRobotError::Stale { .. } => String::new(),
-        CompiledRobotError::FormatVersion { .. }
-        | CompiledRobotError::Read { .. }
+        CompiledRobotError::Read(_)
         | CompiledRobotError::Json(_)
-        | CompiledRobotError::Format { .. }
-        | CompiledRobotError::Violation { .. } => {
+        | CompiledRobotError::Content { .. } => {
             format!("; `prone robot compile {folder}` writes it anew")
         }
     };

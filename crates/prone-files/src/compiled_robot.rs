@@ -19,33 +19,31 @@
 //! that of the two texts which the robot was compiled from: where they lie beside it, it tells
 //! whether they still are those. A robot without a family has `null` for it and for its version.
 
+mod bodies;
 mod chain;
 mod control;
 mod document;
 mod layout;
 mod names;
 mod place;
-mod reading;
-mod writing;
 
 pub use document::RobotDocument;
 pub use place::Violation;
 
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use prone::robot::Robot;
 
-use document::stated;
+use place::{LONGEST_NAME, Place};
 
 use crate::error::FileError;
 use crate::plain_name::is_plain;
 use crate::robot_folder::{RobotFiles, Version};
 use crate::shipped::RobotSource;
-use crate::text_file;
+use crate::text_file::{ReadError, read_named};
 
 /// Its name beside the robot's sources.
 pub const FILE_NAME: &str = "robot.compiled.json";
@@ -54,8 +52,6 @@ pub const FILE_NAME: &str = "robot.compiled.json";
 const FORMAT: &str = "prone-compiled-robot";
 /// The version of the format that is written and read.
 const FORMAT_VERSION: u64 = 1;
-/// Longest name of an engine, a family or a version, bytes.
-const LONGEST_NAME: usize = 256;
 /// Digits of a SHA-256 hash.
 const HASH_DIGITS: usize = 64;
 
@@ -72,41 +68,18 @@ pub struct CompiledRobot {
 #[derive(Debug, thiserror::Error)]
 pub enum CompiledRobotError {
     /// The file cannot be read.
-    #[error("cannot read {}: {source}", path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    Read(#[from] ReadError),
     /// It is not JSON, or lacks or adds a key.
     #[error(transparent)]
     Json(#[from] FileError),
-    /// It is JSON of another kind.
-    #[error("{file} is no compiled robot: its format is {found:?}, not {FORMAT:?}")]
-    Format {
+    /// It is JSON of another kind or version, or holds what no robot has.
+    #[error("{file}{problem}")]
+    Content {
         /// The file.
         file: String,
-        /// What it says it is.
-        found: String,
-    },
-    /// It was written by another build.
-    #[error(
-        "{file} has version {found} of its format and this program reads version {FORMAT_VERSION}"
-    )]
-    FormatVersion {
-        /// The file.
-        file: String,
-        /// Its version.
-        found: u64,
-    },
-    /// It holds what no robot has.
-    #[error("{file}: {violation}")]
-    Violation {
-        /// The file.
-        file: String,
-        /// Where, what, and the bound.
-        violation: Violation,
+        /// What is wrong, and where; it continues the name of the file.
+        problem: String,
     },
     /// Its sources have changed since.
     #[error(
@@ -146,9 +119,9 @@ pub fn is_compiled_robot(text: &str) -> bool {
 struct Document {
     format: String,
     format_version: u64,
-    #[serde(deserialize_with = "stated")]
+    #[serde(deserialize_with = "Option::deserialize")]
     family: Option<String>,
-    #[serde(deserialize_with = "stated")]
+    #[serde(deserialize_with = "Option::deserialize")]
     version: Option<String>,
     sources_sha256: String,
     engine: String,
@@ -169,16 +142,13 @@ impl CompiledRobot {
     /// [`Violation`] if the robot could not be read again from [`CompiledRobot::text`]: a name that
     /// is empty, say, or a number that is none.
     pub fn new(robot: &Robot, sources: &RobotFiles, engine: String) -> Result<Self, Violation> {
-        let version = sources.version.as_ref();
-        Self::from_document(Document {
-            format: FORMAT.to_owned(),
-            format_version: FORMAT_VERSION,
-            family: version.map(|version| version.family.clone()),
-            version: version.map(|version| version.version.clone()),
-            sources_sha256: sources.hash(),
+        let unchecked = Self {
+            robot: robot.clone(),
+            version: sources.version.clone(),
+            sources_hash: sources.hash(),
             engine,
-            robot: RobotDocument::from_robot(robot),
-        })
+        };
+        Self::from_document(unchecked.document())
     }
 
     /// Reads a compiled robot, wherever its sources are.
@@ -186,13 +156,7 @@ impl CompiledRobot {
     /// # Errors
     /// All of [`CompiledRobotError`] but that it is stale.
     pub fn read(path: &Path) -> Result<Self, CompiledRobotError> {
-        match text_file::read(path) {
-            Ok(text) => Self::parse(&path.display().to_string(), &text),
-            Err(source) => Err(CompiledRobotError::Read {
-                path: path.to_owned(),
-                source,
-            }),
-        }
+        Self::parse(&path.display().to_string(), &read_named(path)?)
     }
 
     /// Reads the compiled robot that lies beside its sources, under the name [`FILE_NAME`], and
@@ -212,21 +176,26 @@ impl CompiledRobot {
     /// # Errors
     /// As [`CompiledRobot::read`].
     pub fn parse(file: &str, text: &str) -> Result<Self, CompiledRobotError> {
-        let file = file.to_owned();
+        let wrong = |problem| CompiledRobotError::Content {
+            file: file.to_owned(),
+            problem,
+        };
         let Head {
-            format,
-            format_version,
-        } = from_json(&file, text)?;
-        if format != FORMAT {
-            let found = format;
-            return Err(CompiledRobotError::Format { file, found });
+            format: kind,
+            format_version: found,
+        } = from_json(file, text)?;
+        if kind != FORMAT {
+            return Err(wrong(format!(
+                " is no compiled robot: its format is {kind:?}, not {FORMAT:?}"
+            )));
         }
-        if format_version != FORMAT_VERSION {
-            let found = format_version;
-            return Err(CompiledRobotError::FormatVersion { file, found });
+        if found != FORMAT_VERSION {
+            return Err(wrong(format!(
+                " has version {found} of its format and this program reads version {FORMAT_VERSION}"
+            )));
         }
-        Self::from_document(from_json(&file, text)?)
-            .map_err(|violation| CompiledRobotError::Violation { file, violation })
+        let compiled = Self::from_document(from_json(file, text)?);
+        compiled.map_err(|violation| wrong(format!(": {violation}")))
     }
 
     /// A robot that ships with the program.
@@ -238,39 +207,31 @@ impl CompiledRobot {
     }
 
     fn from_document(document: Document) -> Result<Self, Violation> {
-        let Document {
-            format: _,
-            format_version: _,
-            family,
-            version,
-            sources_sha256,
-            engine,
-            robot,
-        } = document;
+        let hash = &document.sources_sha256;
         let is_digit = |digit: u8| matches!(digit, b'0'..=b'9' | b'a'..=b'f');
-        if sources_sha256.len() != HASH_DIGITS || !sources_sha256.bytes().all(is_digit) {
-            return Err(Violation {
-                place: "sources_sha256".to_owned(),
-                message: format!("a hash has {HASH_DIGITS} digits, 0 to 9 and a to f"),
-            });
+        if hash.len() != HASH_DIGITS || !hash.bytes().all(is_digit) {
+            let message = format!("a hash has {HASH_DIGITS} digits, 0 to 9 and a to f");
+            return Err(Place::Root("sources_sha256").violation(message));
         }
-        if engine.len() > LONGEST_NAME {
-            return Err(Violation {
-                place: "engine".to_owned(),
-                message: format!("more than {LONGEST_NAME} bytes"),
-            });
+        if document.engine.len() > LONGEST_NAME {
+            let message = format!("more than {LONGEST_NAME} bytes");
+            return Err(Place::Root("engine").violation(message));
         }
         Ok(Self {
-            robot: robot.robot("robot")?,
-            version: read_version(family, version)?,
-            sources_hash: sources_sha256,
-            engine,
+            robot: document.robot.robot("robot")?,
+            version: read_version(document.family, document.version)?,
+            sources_hash: document.sources_sha256,
+            engine: document.engine,
         })
     }
 
     /// The text of its file: the same robot gives the same bytes.
     pub fn text(&self) -> String {
-        layout::text(&Document {
+        layout::text(&self.document())
+    }
+
+    fn document(&self) -> Document {
+        Document {
             format: FORMAT.to_owned(),
             format_version: FORMAT_VERSION,
             family: self.version.as_ref().map(|it| it.family.clone()),
@@ -278,7 +239,7 @@ impl CompiledRobot {
             sources_sha256: self.sources_hash.clone(),
             engine: self.engine.clone(),
             robot: RobotDocument::from_robot(&self.robot),
-        })
+        }
     }
 
     /// The robot.
@@ -330,25 +291,18 @@ fn read_version(
     family: Option<String>,
     version: Option<String>,
 ) -> Result<Option<Version>, Violation> {
-    let refused = |place: &str, message| {
-        Err(Violation {
-            place: place.to_owned(),
-            message,
-        })
-    };
+    let refused = |place, message: &str| Err(Place::Root(place).violation(message));
     let (family, version) = match (family, version) {
         (None, None) => return Ok(None),
         (Some(family), Some(version)) => (family, version),
-        (None, Some(_)) => return refused("family", "a version has a family".to_owned()),
-        (Some(_), None) => {
-            return refused("version", "a robot of a family is a version".to_owned());
-        }
+        (None, Some(_)) => return refused("family", "a version has a family"),
+        (Some(_), None) => return refused("version", "a robot of a family is a version"),
     };
     for (place, name) in [("family", &family), ("version", &version)] {
         if !is_plain(name) || name.len() > LONGEST_NAME {
             let message =
                 format!("{name:?} is not made of 1 to {LONGEST_NAME} letters, digits, - and _");
-            return refused(place, message);
+            return refused(place, &message);
         }
     }
     Ok(Some(Version { family, version }))

@@ -9,6 +9,7 @@ use toml::Spanned;
 
 use prone::gait::{Curve, CurveError, CurveForm};
 
+use crate::error::{FileError, Source};
 use crate::exactly::Exactly;
 
 /// The keys of a curve; a table holds exactly one.
@@ -58,13 +59,8 @@ struct BSpline {
 }
 
 impl CurveTable {
-    /// Where the numbers stand in the file.
-    pub(crate) fn span(&self) -> Range<usize> {
-        self.span.clone()
-    }
-
-    /// The curve in radians; an error names numbers as the file has them.
-    pub(crate) fn into_curve(self) -> Result<Curve, CurveError> {
+    /// The curve in radians; an error points at the numbers, and names them as the file has them.
+    pub(crate) fn read(self, source: Source<'_>) -> Result<Curve, FileError> {
         let (unit, largest) = (self.unit, self.form.largest());
         let radians = |value: f64| unit.radians(value);
         let all = |values: Vec<f64>| values.into_iter().map(radians).collect();
@@ -78,10 +74,11 @@ impl CurveTable {
             }
             Form::BSpline(BSpline { degree, control }) => Curve::b_spline(degree, all(control)),
         };
-        curve.map_err(|error| match error {
+        let named = curve.map_err(|error| match error {
             CurveError::Overflow { .. } => CurveError::Overflow { largest },
             other => other,
-        })
+        });
+        named.map_err(|error| source.error(self.span, error))
     }
 }
 

@@ -39,7 +39,8 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use prone::gait::cycle::{Approach, Cycle, Easing, Steering, Waypoint};
-use prone::gait::{Curve, Gait, PhaseDuration};
+use prone::gait::{Gait, LimitsPolicy, PhaseDuration};
+use prone::mapping::{ArmMode, MappingVariant};
 
 use crate::curve_table::{self, CurveTable};
 use crate::error::{FileError, Source, line_and_column};
@@ -65,37 +66,36 @@ pub fn parse(file: &str, text: &str) -> Result<Cycle, FileError> {
     let source = Source { file, text };
     let table: CycleFile = source.parse()?;
     gait_file::check_name(source, &table.name)?;
-    let reader = Reader { source };
     let pull = table.pull;
     let seconds = *pull.duration_s.get_ref();
     let pull_duration =
         PhaseDuration::new(seconds).map_err(|error| source.error(pull.duration_s.span(), error))?;
     let mut company = BTreeMap::new();
     for (joint, curve) in pull.joints {
-        company.insert(joint, reader.curve(curve)?);
+        company.insert(joint, curve.read(source)?);
     }
     let mut recovery = Vec::with_capacity(table.recovery.len());
     for waypoint in table.recovery {
-        recovery.push(reader.waypoint(waypoint)?);
+        recovery.push(source.waypoint(waypoint)?);
     }
     Ok(Cycle {
         pull: Gait {
             name: table.name.into_inner(),
             description: table.description,
-            knee: reader.curve(pull.knee)?,
-            hip: reader.curve(pull.hip)?,
-            upper_arm: reader.curve(pull.upper_arm)?,
-            mapping: table.mapping.into(),
-            arm: table.arm.into(),
-            limits: table.limits.into(),
+            knee: pull.knee.read(source)?,
+            hip: pull.hip.read(source)?,
+            upper_arm: pull.upper_arm.read(source)?,
+            mapping: table.mapping,
+            arm: table.arm,
+            limits: table.limits,
         },
         pull_duration,
         company,
         recovery,
-        approach: reader.approach(&table.approach.time_s, table.approach.easing)?,
+        approach: source.approach(&table.approach.time_s, table.approach.easing)?,
         steering: match table.steering {
             None => None,
-            Some(steering) => Some(reader.steering(steering)?),
+            Some(steering) => Some(source.steering(steering)?),
         },
     })
 }
@@ -183,12 +183,12 @@ struct CycleFile {
     name: Spanned<String>,
     #[serde(default)]
     description: String,
-    #[serde(default)]
-    mapping: MappingName,
-    #[serde(default)]
-    arm: ArmName,
-    #[serde(default)]
-    limits: LimitsName,
+    #[serde(default, with = "MappingName")]
+    mapping: MappingVariant,
+    #[serde(default, with = "ArmName")]
+    arm: ArmMode,
+    #[serde(default, with = "LimitsName")]
+    limits: LimitsPolicy,
     pull: PullTable,
     #[serde(default)]
     recovery: Vec<WaypointTable>,
@@ -212,8 +212,8 @@ struct PullTable {
 struct WaypointTable {
     name: Spanned<String>,
     time_s: Spanned<f64>,
-    #[serde(default)]
-    easing: EasingName,
+    #[serde(default, with = "EasingName")]
+    easing: Easing,
     #[serde(default)]
     joints_deg: BTreeMap<String, Spanned<f64>>,
     #[serde(default)]
@@ -224,8 +224,8 @@ struct WaypointTable {
 #[serde(deny_unknown_fields)]
 struct ApproachTable {
     time_s: Spanned<f64>,
-    #[serde(default)]
-    easing: EasingName,
+    #[serde(default, with = "EasingName")]
+    easing: Easing,
 }
 
 #[derive(Debug, Deserialize)]
@@ -238,40 +238,17 @@ struct SteeringTable {
     joints: BTreeMap<String, Spanned<f64>>,
 }
 
-#[derive(Debug, Clone, Copy, Default, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Deserialize)]
+#[serde(remote = "Easing", rename_all = "kebab-case")]
 enum EasingName {
-    #[default]
     Smoothstep,
     Linear,
 }
 
-impl From<EasingName> for Easing {
-    fn from(name: EasingName) -> Self {
-        match name {
-            EasingName::Smoothstep => Self::Smoothstep,
-            EasingName::Linear => Self::Linear,
-        }
-    }
-}
-
-struct Reader<'a> {
-    source: Source<'a>,
-}
-
-impl Reader<'_> {
-    fn curve(&self, curve: CurveTable) -> Result<Curve, FileError> {
-        let span = curve.span();
-        curve
-            .into_curve()
-            .map_err(|error| self.source.error(span, error))
-    }
-
-    fn waypoint(&self, table: WaypointTable) -> Result<Waypoint, FileError> {
+impl Source<'_> {
+    fn waypoint(self, table: WaypointTable) -> Result<Waypoint, FileError> {
         if table.name.get_ref().trim().is_empty() {
-            return Err(self
-                .source
-                .error(table.name.span(), "a waypoint needs a name"));
+            return Err(self.error(table.name.span(), "a waypoint needs a name"));
         }
         let mut joints = BTreeMap::new();
         for (joint, angle) in table.joints_deg {
@@ -282,7 +259,7 @@ impl Reader<'_> {
             let radians = self.within(&angle, &joint, LARGEST_DEG.to_radians())?;
             if joints.insert(joint.clone(), radians).is_some() {
                 let twice = format!("{joint} is given twice, in degrees and in radians");
-                return Err(self.source.error(angle.span(), twice));
+                return Err(self.error(angle.span(), twice));
             }
         }
         Ok(Waypoint {
@@ -292,20 +269,17 @@ impl Reader<'_> {
         })
     }
 
-    fn approach(&self, time: &Spanned<f64>, easing: EasingName) -> Result<Approach, FileError> {
+    fn approach(self, time: &Spanned<f64>, easing: Easing) -> Result<Approach, FileError> {
         let seconds = *time.get_ref();
         let (least, most) = Cycle::STRETCH_SECONDS;
         if !(least..=most).contains(&seconds) {
             let message = format!("time_s must be {least} to {most} s, not {seconds}");
-            return Err(self.source.error(time.span(), message));
+            return Err(self.error(time.span(), message));
         }
-        Ok(Approach {
-            seconds,
-            easing: easing.into(),
-        })
+        Ok(Approach { seconds, easing })
     }
 
-    fn steering(&self, table: SteeringTable) -> Result<Steering, FileError> {
+    fn steering(self, table: SteeringTable) -> Result<Steering, FileError> {
         let limit = match (table.limit_deg, table.limit_rad) {
             (Some(degrees), None) => self
                 .positive(&degrees, "limit_deg", LARGEST_TURN_DEG)?
@@ -316,7 +290,7 @@ impl Reader<'_> {
             _ => {
                 let span = table.spread.span();
                 let message = "[steering] needs one of limit_deg and limit_rad";
-                return Err(self.source.error(span, message));
+                return Err(self.error(span, message));
             }
         };
         let mut joints = BTreeMap::new();
@@ -331,22 +305,22 @@ impl Reader<'_> {
         })
     }
 
-    fn within(&self, number: &Spanned<f64>, what: &str, largest: f64) -> Result<f64, FileError> {
+    fn within(self, number: &Spanned<f64>, what: &str, largest: f64) -> Result<f64, FileError> {
         let value = *number.get_ref();
         if (-largest..=largest).contains(&value) {
             return Ok(value);
         }
         let message = format!("{what} must be within -{largest}..{largest}, not {value}");
-        Err(self.source.error(number.span(), message))
+        Err(self.error(number.span(), message))
     }
 
-    fn positive(&self, number: &Spanned<f64>, what: &str, largest: f64) -> Result<f64, FileError> {
+    fn positive(self, number: &Spanned<f64>, what: &str, largest: f64) -> Result<f64, FileError> {
         let value = *number.get_ref();
         if value > 0.0 && value <= largest {
             return Ok(value);
         }
         let message = format!("{what} must be above 0, up to {largest}, not {value}");
-        Err(self.source.error(number.span(), message))
+        Err(self.error(number.span(), message))
     }
 }
 

@@ -160,49 +160,53 @@ impl DefaultsTable {
         self.cycle.under.is_some()
     }
 
-    /// Its keys in place of those of `others`.
-    pub(crate) fn over(&self, others: Defaults) -> Defaults {
-        let Self { pull, cycle } = self;
-        Defaults {
-            pull: PullDefaults {
-                from: text(pull.from.as_ref()).unwrap_or(others.pull.from),
-                compared: texts(pull.compared.as_ref()).unwrap_or(others.pull.compared),
-                body_share_of: text(pull.body_share_of.as_ref())
-                    .unwrap_or(others.pull.body_share_of),
+    /// Cycles that are tried under a ceiling where it does not say which; none change nothing.
+    pub(crate) fn try_under(&mut self, cycles: Vec<String>) {
+        let names = cycles.into_iter().map(|name| Spanned::new(0..0, name));
+        let names: Vec<_> = names.collect();
+        if !names.is_empty() {
+            self.cycle.under = Some(Spanned::new(0..0, names));
+        }
+    }
+
+    /// Its keys, and those of `others` that it lacks.
+    pub(crate) fn over(self, others: Self) -> Self {
+        let (pull, cycle) = (self.pull, self.cycle);
+        Self {
+            pull: PullTable {
+                from: pull.from.or(others.pull.from),
+                compared: pull.compared.or(others.pull.compared),
+                body_share_of: pull.body_share_of.or(others.pull.body_share_of),
             },
-            cycle: CycleDefaults {
-                from: texts(cycle.from.as_ref()).unwrap_or(others.cycle.from),
-                compared: texts(cycle.compared.as_ref()).unwrap_or(others.cycle.compared),
-                under: texts(cycle.under.as_ref()).unwrap_or(others.cycle.under),
+            cycle: CycleTable {
+                from: cycle.from.or(others.cycle.from),
+                compared: cycle.compared.or(others.cycle.compared),
+                under: cycle.under.or(others.cycle.under),
             },
         }
     }
 
-    /// All defaults, of a table that lacks none.
-    pub(crate) fn whole(&self, source: Source<'_>) -> Result<Defaults, FileError> {
-        let Self { pull, cycle } = self;
-        let lacks = |key: &str| source.error(0..0, format!("[defaults] lacks {key}"));
+    /// All defaults, of a table that lacks none; an error names `source`.
+    pub(crate) fn whole(self, source: Source<'_>) -> Result<Defaults, FileError> {
+        let lacks = |key| source.error(0..0, format!("[defaults] lacks {key}"));
+        let one = |key, name: Option<Spanned<String>>| {
+            name.map(Spanned::into_inner).ok_or_else(|| lacks(key))
+        };
+        let some = |key, names: Option<Names>| {
+            let names = names.ok_or_else(|| lacks(key))?.into_inner().into_iter();
+            Ok(names.map(Spanned::into_inner).collect())
+        };
         Ok(Defaults {
             pull: PullDefaults {
-                from: text(pull.from.as_ref()).ok_or_else(|| lacks("pull.from"))?,
-                compared: texts(pull.compared.as_ref()).ok_or_else(|| lacks("pull.compared"))?,
-                body_share_of: text(pull.body_share_of.as_ref())
-                    .ok_or_else(|| lacks("pull.body_share_of"))?,
+                from: one("pull.from", self.pull.from)?,
+                compared: some("pull.compared", self.pull.compared)?,
+                body_share_of: one("pull.body_share_of", self.pull.body_share_of)?,
             },
             cycle: CycleDefaults {
-                from: texts(cycle.from.as_ref()).ok_or_else(|| lacks("cycle.from"))?,
-                compared: texts(cycle.compared.as_ref()).ok_or_else(|| lacks("cycle.compared"))?,
-                under: texts(cycle.under.as_ref()).ok_or_else(|| lacks("cycle.under"))?,
+                from: some("cycle.from", self.cycle.from)?,
+                compared: some("cycle.compared", self.cycle.compared)?,
+                under: some("cycle.under", self.cycle.under)?,
             },
         })
     }
-}
-
-fn text(name: Option<&Spanned<String>>) -> Option<String> {
-    name.map(|name| name.get_ref().clone())
-}
-
-fn texts(names: Option<&Names>) -> Option<Vec<String>> {
-    let names = names?.get_ref();
-    Some(names.iter().map(|name| name.get_ref().clone()).collect())
 }

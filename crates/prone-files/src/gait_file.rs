@@ -37,21 +37,15 @@ pub fn parse(file: &str, text: &str) -> Result<Gait, FileError> {
     let source = Source { file, text };
     let gait: GaitFile = source.parse()?;
     check_name(source, &gait.name)?;
-    let curve = |curve: CurveTable| {
-        let span = curve.span();
-        curve
-            .into_curve()
-            .map_err(|error| source.error(span, error))
-    };
     Ok(Gait {
         name: gait.name.get_ref().clone(),
         description: gait.description,
-        knee: curve(gait.knee)?,
-        hip: curve(gait.hip)?,
-        upper_arm: curve(gait.upper_arm)?,
-        mapping: gait.mapping.into(),
-        arm: gait.arm.into(),
-        limits: gait.limits.into(),
+        knee: gait.knee.read(source)?,
+        hip: gait.hip.read(source)?,
+        upper_arm: gait.upper_arm.read(source)?,
+        mapping: gait.mapping,
+        arm: gait.arm,
+        limits: gait.limits,
     })
 }
 
@@ -120,66 +114,36 @@ struct GaitFile {
     name: Spanned<String>,
     #[serde(default)]
     description: String,
-    #[serde(default)]
-    mapping: MappingName,
-    #[serde(default)]
-    arm: ArmName,
-    #[serde(default)]
-    limits: LimitsName,
+    #[serde(default, with = "MappingName")]
+    mapping: MappingVariant,
+    #[serde(default, with = "ArmName")]
+    arm: ArmMode,
+    #[serde(default, with = "LimitsName")]
+    limits: LimitsPolicy,
     knee: CurveTable,
     hip: CurveTable,
     upper_arm: CurveTable,
 }
 
-#[derive(Debug, Default, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Deserialize)]
+#[serde(remote = "MappingVariant", rename_all = "kebab-case")]
 pub(crate) enum MappingName {
-    #[default]
     Exact,
     Original,
 }
 
-#[derive(Debug, Default, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Deserialize)]
+#[serde(remote = "ArmMode", rename_all = "kebab-case")]
 pub(crate) enum ArmName {
-    #[default]
     FlatForearm,
     Fixed,
 }
 
-#[derive(Debug, Default, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Deserialize)]
+#[serde(remote = "LimitsPolicy", rename_all = "kebab-case")]
 pub(crate) enum LimitsName {
-    #[default]
     Refuse,
     Clamp,
-}
-
-impl From<MappingName> for MappingVariant {
-    fn from(name: MappingName) -> Self {
-        match name {
-            MappingName::Exact => Self::Exact,
-            MappingName::Original => Self::Original,
-        }
-    }
-}
-
-impl From<ArmName> for ArmMode {
-    fn from(name: ArmName) -> Self {
-        match name {
-            ArmName::FlatForearm => Self::FlatForearm,
-            ArmName::Fixed => Self::Fixed,
-        }
-    }
-}
-
-impl From<LimitsName> for LimitsPolicy {
-    fn from(name: LimitsName) -> Self {
-        match name {
-            LimitsName::Refuse => Self::Refuse,
-            LimitsName::Clamp => Self::Clamp,
-        }
-    }
 }
 
 #[cfg(test)]

@@ -69,11 +69,10 @@ impl Gaits {
     /// # Errors
     /// [`ReadError`] where the folder or one of its files cannot be read.
     pub fn own_pulls(&self) -> Result<Vec<String>, ReadError> {
-        match self {
-            Self::None => Ok(Vec::new()),
-            Self::Shipped(family) => Ok(family.pull_names().map(str::to_owned).collect()),
-            Self::Folder(folder) => self.named_in(folder, |gait| !gait.is_cycle()),
-        }
+        self.own(
+            |family| family.pull_names().map(str::to_owned).collect(),
+            |gait| !gait.is_cycle(),
+        )
     }
 
     /// Names of the robot's own cycles: as they ship, or in the order of their names.
@@ -81,18 +80,22 @@ impl Gaits {
     /// # Errors
     /// [`ReadError`] where the folder or one of its files cannot be read.
     pub fn own_cycles(&self) -> Result<Vec<String>, ReadError> {
-        match self {
-            Self::None => Ok(Vec::new()),
-            Self::Shipped(family) => Ok(family.cycle_names().map(str::to_owned).collect()),
-            Self::Folder(folder) => self.named_in(folder, GaitText::is_cycle),
-        }
+        self.own(
+            |family| family.cycle_names().map(str::to_owned).collect(),
+            GaitText::is_cycle,
+        )
     }
 
-    fn named_in(
+    fn own(
         &self,
-        folder: &Path,
+        shipped: fn(&FamilySource) -> Vec<String>,
         wanted: impl Fn(&GaitText) -> bool,
     ) -> Result<Vec<String>, ReadError> {
+        let folder = match self {
+            Self::None => return Ok(Vec::new()),
+            Self::Shipped(family) => return Ok(shipped(family)),
+            Self::Folder(folder) => folder,
+        };
         let unread = |source| ReadError {
             path: folder.to_owned(),
             source,
@@ -108,7 +111,7 @@ impl Gaits {
             }
         }
         names.sort_unstable();
-        let mut found = Vec::with_capacity(names.len());
+        let mut found = Vec::new();
         for name in names {
             if self.find(&name)?.is_some_and(|gait| wanted(&gait)) {
                 found.push(name);

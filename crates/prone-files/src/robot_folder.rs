@@ -175,7 +175,7 @@ impl RobotFiles {
                 let gaits = Gaits::beside(&family.folder);
                 check_names(&family.table.defaults, family.source(), &gaits)?;
                 let version = family.version(folder, &name, source)?;
-                (Some(version), Some(family.into_text()), gaits)
+                (Some(version), Some(family.file), gaits)
             }
             None if family.is_some() => {
                 let message = "a version names its family: the key family is missing";
@@ -211,27 +211,23 @@ impl RobotFiles {
     /// # Errors
     /// [`RobotFolderError`] for texts that are malformed, and gaits that cannot be read.
     pub fn defaults(&self) -> Result<Defaults, RobotFolderError> {
-        let mut defaults = shipped::defaults()?;
         let own = RobotFile::parse(&self.toml_name(), &self.toml)?.defaults;
         let family = match &self.family_toml {
             Some(family) => FamilyFile::parse(&family.file, &family.text)?.defaults,
             None => DefaultsTable::default(),
         };
-        if !own.has_under() && !family.has_under() {
-            let cycles = self.gaits.own_cycles()?;
-            if !cycles.is_empty() {
-                defaults.cycle.under = cycles;
-            }
+        let mut stated = own.over(family);
+        if !stated.has_under() {
+            stated.try_under(self.gaits.own_cycles()?);
         }
-        Ok(own.over(family.over(defaults)))
+        Ok(shipped::defaults(stated)?)
     }
 }
 
 /// A `family.toml` that was read.
 struct Family {
     folder: PathBuf,
-    file: String,
-    text: String,
+    file: FamilyText,
     table: FamilyFile,
 }
 
@@ -243,8 +239,7 @@ impl Family {
         let table = FamilyFile::parse(&file, &text)?;
         Ok(Self {
             folder: folder.to_owned(),
-            file,
-            text,
+            file: FamilyText { file, text },
             table,
         })
     }
@@ -272,8 +267,8 @@ impl Family {
 
     fn source(&self) -> Source<'_> {
         Source {
-            file: &self.file,
-            text: &self.text,
+            file: &self.file.file,
+            text: &self.file.text,
         }
     }
 
@@ -292,7 +287,7 @@ impl Family {
         if family != named.get_ref() {
             let message = format!(
                 "the family of {} is called {family:?}, not {:?}",
-                self.file,
+                self.file.file,
                 named.get_ref()
             );
             return Err(source.error(named.span(), message).into());
@@ -313,13 +308,6 @@ impl Family {
             family: family.clone(),
             version: version.to_owned(),
         })
-    }
-
-    fn into_text(self) -> FamilyText {
-        FamilyText {
-            file: self.file,
-            text: self.text,
-        }
     }
 }
 

@@ -61,23 +61,18 @@ pub fn parse(file: &str, text: &str) -> Result<Scene, FileError> {
             format!("a scene's name is made of letters, digits, - and _ (it becomes part of file names), not {name:?}"),
         ));
     }
-    if let Some((given, missing)) = table.half_a_friction() {
-        let key = if missing == "friction_left" {
-            "friction_right"
-        } else {
-            "friction_left"
-        };
-        return Err(source.error(given, format!("{key} needs {missing} beside it")));
+    if let Some([given, missing]) = table.half_a_friction() {
+        let [key, other] = [given, missing].map(tables::key);
+        let place = tables::place(text, Item::Floor, given);
+        return Err(source.error(place, format!("{key} needs {other} beside it")));
     }
     let scene = table.scene();
-    scene
-        .check()
-        .map_err(|error| refuse(source, &table, error))?;
+    scene.check().map_err(|error| refuse(source, error))?;
     Ok(scene)
 }
 
 /// The same error in the units of the file, at the number that it is about.
-fn refuse(source: Source<'_>, table: &SceneFile, error: SceneError) -> FileError {
+fn refuse(source: Source<'_>, error: SceneError) -> FileError {
     let (item, quantity, message) = match error {
         SceneError::OutOfBounds {
             item,
@@ -102,7 +97,7 @@ fn refuse(source: Source<'_>, table: &SceneFile, error: SceneError) -> FileError
             (Item::Rough, Quantity::Spacing, message)
         }
     };
-    source.error(table.place(item, quantity), message)
+    source.error(tables::place(source.text, item, quantity), message)
 }
 
 /// A number as the file has it, without the digits that the conversion makes up.

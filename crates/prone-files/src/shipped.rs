@@ -4,7 +4,7 @@ use prone::gait::Gait;
 use prone::gait::cycle::Cycle;
 use prone::scene::Scene;
 
-use crate::defaults::Defaults;
+use crate::defaults::{Defaults, DefaultsTable};
 use crate::error::Source;
 use crate::family_file::FamilyFile;
 use crate::gait_text::GaitText;
@@ -188,13 +188,12 @@ pub fn robot_names() -> impl Iterator<Item = String> {
     })
 }
 
-/// The gaits of robots that do not say which.
-pub(crate) fn defaults() -> Result<Defaults, FileError> {
+/// The gaits of a robot that says some of them; the others are those of the first family.
+pub(crate) fn defaults(stated: DefaultsTable) -> Result<Defaults, FileError> {
     let [family, ..] = &FAMILIES;
     let (file, text) = (&family.toml_name(), family.toml);
-    FamilyFile::parse(file, text)?
-        .defaults
-        .whole(Source { file, text })
+    let shipped = FamilyFile::parse(file, text)?.defaults;
+    stated.over(shipped).whole(Source { file, text })
 }
 
 /// The file of a shipped gait, of the first family that has one of this name.

@@ -12,11 +12,13 @@ pub struct BrokenTable {
 }
 
 /// What ends the whole lines of a table.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum Break {
     /// The file ends within the line, of which digits may be missing.
+    #[error("the file ends within the line")]
     Unfinished,
     /// The line has more or fewer cells than the header.
+    #[error("{found} cells, where the header has {expected}")]
     Cells {
         /// Cells of the line.
         found: usize,

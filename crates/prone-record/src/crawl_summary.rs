@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use prone::robot::{BodyPart, Tops};
+use prone::gait::Clamp;
+use prone::robot::{BodyPart, Robot, Tops};
 
 /// What came out of a crawl.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -211,16 +212,29 @@ pub struct SheetClamp {
     pub largest_deg: f64,
 }
 
-impl TopsMm {
-    /// Of heights in m.
-    pub fn of(tops: &Tops) -> Self {
-        let of = |part: BodyPart| tops.0[part as usize] * 1e3;
+impl SheetClamp {
+    /// A clamp of a plan for a robot.
+    pub fn from_clamp(robot: &Robot, clamp: &Clamp) -> Self {
         Self {
-            head: of(BodyPart::Head),
-            trunk: of(BodyPart::Trunk),
-            arms: of(BodyPart::Arms),
-            legs: of(BodyPart::Legs),
-            feet: of(BodyPart::Feet),
+            joint: robot.joints[clamp.joint.0].name.clone(),
+            samples: clamp.samples,
+            from_percent: clamp.from * 100.0,
+            to_percent: clamp.to * 100.0,
+            largest_deg: clamp.largest.to_degrees(),
+        }
+    }
+}
+
+impl TopsMm {
+    /// The same heights in mm.
+    pub fn from_metres(tops: &Tops) -> Self {
+        let [head, trunk, arms, legs, feet] = tops.0.map(|metres| metres * 1e3);
+        Self {
+            head,
+            trunk,
+            arms,
+            legs,
+            feet,
         }
     }
 

@@ -7,6 +7,8 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use prone_files::text_file::ReadError;
+
 use crate::output::RUN_FILE;
 use crate::program::Program;
 
@@ -41,13 +43,8 @@ pub enum HeadError {
         reason: String,
     },
     /// `run.json` cannot be read.
-    #[error("cannot read {file}: {source}")]
-    File {
-        /// Path of the file.
-        file: String,
-        /// Why.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] ReadError),
     /// `run.json` is not JSON.
     #[error("{file}: {source}")]
     Json {
@@ -86,6 +83,17 @@ impl<C> Head<C> {
 }
 
 impl Head {
+    /// The same head with the command as a type.
+    pub(crate) fn with<C>(self, command: C) -> Head<C> {
+        Head {
+            program: self.program,
+            version: self.version,
+            commit: self.commit,
+            command,
+            engine: self.engine,
+        }
+    }
+
     /// Reads the head of a result folder of this version of the program, and the whole `run.json`.
     ///
     /// # Errors
@@ -102,14 +110,14 @@ impl Head {
             return Err(not("it is not a folder"));
         }
         let path = folder.join(RUN_FILE);
-        let file = path.display().to_string();
         let text = match fs::read(&path) {
             Ok(bytes) => String::from_utf8_lossy(&bytes).into_owned(),
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
                 return Err(not(&format!("it holds no {RUN_FILE}")));
             }
-            Err(source) => return Err(HeadError::File { file, source }),
+            Err(source) => return Err(ReadError { path, source }.into()),
         };
+        let file = path.display().to_string();
         let run: Value = match serde_json::from_str(&text) {
             Ok(run) => run,
             Err(source) => return Err(HeadError::Json { file, source }),

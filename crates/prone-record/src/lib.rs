@@ -19,6 +19,7 @@ pub mod output;
 pub mod program;
 pub mod pulls;
 pub mod real_path;
+pub mod record_columns;
 pub mod record_info;
 pub mod recorded;
 pub mod resumption;

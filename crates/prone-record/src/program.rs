@@ -35,18 +35,13 @@ pub struct RobotInfo {
     pub standing_height_mm: Option<f64>,
 }
 
-/// Words for a version of a robot, `unknown` where a record does not say.
-pub fn version_name(family: Option<&str>, version: Option<&str>) -> String {
-    match (family, version) {
-        (Some(family), Some(version)) => format!("{version} of {family}"),
-        _ => "unknown".to_owned(),
-    }
-}
-
 impl RobotInfo {
     /// Words for its version, `unknown` where a record does not say.
     pub fn version_name(&self) -> String {
-        version_name(self.family.as_deref(), self.version.as_deref())
+        match (&self.family, &self.version) {
+            (Some(family), Some(version)) => format!("{version} of {family}"),
+            _ => "unknown".to_owned(),
+        }
     }
 
     /// Of a robot and the files that it was made of.

@@ -2,7 +2,7 @@
 //!
 //! What a record does not say is `None`, and reports say `unknown`.
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 
 use crate::head::Head;
 use crate::origin::{Origin, RegimeInfo};
@@ -17,7 +17,7 @@ pub const ROWS_FILE: &str = "rows.csv";
 pub const CONTACTS_FILE: &str = "contacts.csv";
 
 /// What `run.json` says of a record.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RecordInfo {
     /// What wrote it.
     #[serde(flatten)]
@@ -29,6 +29,7 @@ pub struct RecordInfo {
     /// Where.
     pub scene: SceneInfo,
     /// Simulated, driven or imported.
+    #[serde(flatten, serialize_with = "regime_and_origin")]
     pub origin: Origin,
     /// What was asked for beside robot, gait and scene.
     pub options: Options,
@@ -36,34 +37,22 @@ pub struct RecordInfo {
     pub record: Extent,
 }
 
-/// The file as it is written: the regime of a simulation also stands by itself, for scripts.
-#[derive(Serialize)]
-struct Written<'a> {
-    #[serde(flatten)]
-    head: &'a Head<Command>,
-    robot: &'a RobotInfo,
-    gait: &'a GaitInfo,
-    scene: &'a SceneInfo,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    regime: Option<&'a RegimeInfo>,
-    origin: &'a Origin,
-    options: &'a Options,
-    record: &'a Extent,
+/// The regime of a simulation also stands by itself, for scripts.
+fn regime_and_origin<S: Serializer>(origin: &Origin, serializer: S) -> Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Keys<'a> {
+        #[serde(skip_serializing_if = "Option::is_none")]
+        regime: Option<&'a RegimeInfo>,
+        origin: &'a Origin,
+    }
+    let regime = origin.regime();
+    Keys { regime, origin }.serialize(serializer)
 }
 
-impl Serialize for RecordInfo {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let written = Written {
-            head: &self.head,
-            robot: &self.robot,
-            gait: &self.gait,
-            scene: &self.scene,
-            regime: self.origin.regime(),
-            origin: &self.origin,
-            options: &self.options,
-            record: &self.record,
-        };
-        written.serialize(serializer)
+impl RecordInfo {
+    /// What kind of thing was recorded.
+    pub const fn kind(&self) -> Kind {
+        self.head.command.kind()
     }
 }
 
@@ -101,13 +90,13 @@ pub struct SceneInfo {
     pub rough: Option<bool>,
 }
 
-/// What was asked for, beside robot, gait and scene.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(untagged, from = "StatedOptions")]
+/// What was asked for, beside robot, gait and scene; the [`Kind`] of the record says of what.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
 pub enum Options {
     /// Of a pull.
     Pull(PullOptions),
-    /// Of a crawl.
+    /// Of a crawl, or of a robot that was driven.
     Crawl(CrawlOptions),
 }
 
@@ -138,7 +127,7 @@ impl Options {
 }
 
 /// Options of a pull.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PullOptions {
     /// What durations were multiplied by.
     pub time_scale: Option<f64>,
@@ -151,7 +140,7 @@ pub struct PullOptions {
 }
 
 /// Options of a crawl.
-#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct CrawlOptions {
     /// After how many cycles it was to end, or at most.
     pub most_cycles: Option<usize>,
@@ -170,6 +159,7 @@ pub struct CrawlOptions {
     /// Seed of those errors.
     pub seed: Option<u64>,
     /// The errors themselves, rad, by joint; those of the other joints are zero.
+    #[serde(default)]
     pub joint_offsets_rad: Vec<(String, f64)>,
     /// Text of the scene's file, where there is one.
     pub scene_text: Option<String>,
@@ -177,75 +167,64 @@ pub struct CrawlOptions {
     pub uphill: Option<(String, String)>,
 }
 
-/// The options as they stand in the file; a pull is known by its duration.
-#[derive(Deserialize)]
-struct StatedOptions {
-    duration_s: Option<f64>,
-    start_posture: Option<String>,
-    most_cycles: Option<usize>,
-    until_past_mm: Option<f64>,
-    time_scale: Option<f64>,
-    steering: Option<String>,
-    turn_command_deg: Option<f64>,
-    heading_deg: Option<f64>,
-    joint_offset_deg: Option<f64>,
-    seed: Option<u64>,
-    #[serde(default)]
-    joint_offsets_rad: Vec<(String, f64)>,
-    scene_text: Option<String>,
-    uphill: Option<(String, String)>,
-}
-
-impl From<StatedOptions> for Options {
-    fn from(stated: StatedOptions) -> Self {
-        if let Some(duration_s) = stated.duration_s {
-            return Self::Pull(PullOptions {
-                time_scale: stated.time_scale,
-                scene_text: stated.scene_text,
-                duration_s,
-                start_posture: stated.start_posture,
-            });
-        }
-        Self::Crawl(CrawlOptions {
-            most_cycles: stated.most_cycles,
-            until_past_mm: stated.until_past_mm,
-            time_scale: stated.time_scale,
-            steering: stated.steering,
-            turn_command_deg: stated.turn_command_deg,
-            heading_deg: stated.heading_deg,
-            joint_offset_deg: stated.joint_offset_deg,
-            seed: stated.seed,
-            joint_offsets_rad: stated.joint_offsets_rad,
-            scene_text: stated.scene_text,
-            uphill: stated.uphill,
-        })
-    }
-}
-
 /// Which command has written a record.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub enum Command {
     /// A crawl.
     #[serde(rename = "crawl run")]
     Crawl,
+    /// A pull that was run by itself.
+    #[serde(rename = "pull run")]
+    Pull,
     /// A pull of the published study: no cycle, no way back.
     #[serde(rename = "reproduce pull")]
     ReproducePull,
     /// A crawl under the published table.
     #[serde(rename = "reproduce crawl")]
     ReproduceCrawl,
+    /// What a driver recorded of a robot.
+    #[serde(rename = "robot record")]
+    Robot,
+}
+
+/// What kind of thing was recorded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// One pull: no cycle, no way back.
+    Pull,
+    /// A crawl of whole cycles.
+    Crawl,
+    /// Whatever a driver made a robot do.
+    Driven,
 }
 
 impl Command {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::Crawl, Self::ReproducePull, Self::ReproduceCrawl];
+    pub const ALL: [Self; 5] = [
+        Self::Crawl,
+        Self::Pull,
+        Self::ReproducePull,
+        Self::ReproduceCrawl,
+        Self::Robot,
+    ];
 
     /// Its name in `run.json`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Crawl => "crawl run",
+            Self::Pull => "pull run",
             Self::ReproducePull => "reproduce pull",
             Self::ReproduceCrawl => "reproduce crawl",
+            Self::Robot => "robot record",
+        }
+    }
+
+    /// What kind of thing it records.
+    pub const fn kind(self) -> Kind {
+        match self {
+            Self::Pull | Self::ReproducePull => Kind::Pull,
+            Self::Crawl | Self::ReproduceCrawl => Kind::Crawl,
+            Self::Robot => Kind::Driven,
         }
     }
 }
@@ -279,6 +258,7 @@ pub struct Extent {
     /// Rows of `rows.csv`.
     pub rows: usize,
     /// Time between two rows, and of the first one, s; `None` where rows are unevenly spaced.
+    #[serde(deserialize_with = "Option::deserialize")]
     pub row_step_s: Option<f64>,
     /// What was recorded. A column that is not listed was not.
     pub channels: Vec<Channel>,
@@ -329,12 +309,8 @@ impl Extent {
 
     /// Names of the recorded columns of a table.
     pub fn columns(&self, table: Part) -> impl Iterator<Item = &str> {
-        let of_table = self
-            .channels
-            .iter()
-            .filter(move |channel| channel.table == table);
-        of_table
-            .flat_map(|channel| &channel.columns)
-            .map(String::as_str)
+        let channels = self.channels.iter();
+        let of_table = channels.filter(move |channel| channel.table == table);
+        of_table.flat_map(|channel| channel.columns.iter().map(String::as_str))
     }
 }

@@ -123,10 +123,17 @@ impl Recorded {
             columns,
             contact_counts,
             cut: rows_cut,
-        } = Rows::of(&rows_table, &run.record, &model.joints(), folder)?;
+        } = Rows::read(&rows_table, &run.record, &model.joints(), folder)?;
         let bodies = model.bodies(&joints)?;
         let found = if run.record.has(Part::Contacts) {
-            contacts::read(folder, &bodies, &rows, &contact_counts, rows_cut.as_ref())?
+            contacts::read(
+                folder,
+                &run.record,
+                &bodies,
+                &rows,
+                &contact_counts,
+                rows_cut.as_ref(),
+            )?
         } else {
             contacts::Contacts::default()
         };

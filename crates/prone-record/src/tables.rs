@@ -15,37 +15,24 @@ pub fn torque_file_name(pull: &PullRecord) -> String {
 /// # Errors
 /// [`csv::Error`], which writing to memory does not produce.
 pub fn torques(pull: &PullRecord) -> Result<Vec<u8>, csv::Error> {
-    let mut table = csv::Writer::from_writer(Vec::new());
-    let mut header: Vec<String> = vec!["time_s".into(), "cycle_percent".into()];
+    let mut header = vec!["time_s".to_owned(), "cycle_percent".to_owned()];
     header.extend(JOINTS.map(|joint| format!("{joint}_nm")));
     for joint in JOINTS.iter().chain(&ARM_JOINTS) {
-        header.push(format!("{joint}_cmd_rad"));
-        header.push(format!("{joint}_rad"));
+        header.extend([format!("{joint}_cmd_rad"), format!("{joint}_rad")]);
     }
-    header.extend(
-        [
-            "toe_n",
-            "elbow_n",
-            "torso_n",
-            "leg_n",
-            "top_mm",
-            "head_top_mm",
-        ]
-        .map(Into::into),
-    );
-    table.write_record(&header)?;
-    for row in &pull.rows {
+    header.extend(["toe_n", "elbow_n", "torso_n", "leg_n"].map(String::from));
+    header.extend(["top_mm", "head_top_mm"].map(String::from));
+    let rows = pull.rows.iter().map(|row| {
         let mut cells = vec![number(row.time_s, 3), number(row.cycle_percent, 3)];
         cells.extend(row.torque_nm.map(|torque| number(torque, 6)));
-        for (command, angle) in row.command_rad.iter().zip(row.angle_rad) {
-            cells.push(number(*command, 6));
-            cells.push(number(angle, 6));
-        }
+        let angles = row.command_rad.iter().zip(&row.angle_rad);
+        cells
+            .extend(angles.flat_map(|(&command, &angle)| [command, angle].map(|it| number(it, 6))));
         cells.extend(row.contact_n.map(|force| number(force, 4)));
         cells.extend([row.top_mm, row.head_top_mm].map(|height| number(height, 3)));
-        table.write_record(&cells)?;
-    }
-    finish(table)
+        cells
+    });
+    file(header, rows)
 }
 
 /// `chains.csv`: the planned chain of each gait, one row per instant.
@@ -53,24 +40,21 @@ pub fn torques(pull: &PullRecord) -> Result<Vec<u8>, csv::Error> {
 /// # Errors
 /// [`csv::Error`], which writing to memory does not produce.
 pub fn chains(chains: &[ChainRecord]) -> Result<Vec<u8>, csv::Error> {
-    let mut table = csv::Writer::from_writer(Vec::new());
-    let mut header: Vec<String> = ["gait", "s", "theta3_deg", "theta4_deg", "alpha_deg"]
-        .map(Into::into)
-        .to_vec();
-    for point in CHAIN_POINTS {
-        header.extend([format!("{point}_x_mm"), format!("{point}_z_mm")]);
-    }
-    table.write_record(&header)?;
-    for chain in chains {
-        for sample in &chain.samples {
-            let mut cells = vec![chain.gait.clone(), number(sample.s, 4)];
-            cells.extend(sample.parameters_deg.map(|angle| number(angle, 5)));
-            let points = sample.points_mm.iter().flat_map(|&(x, z)| [x, z]);
-            cells.extend(points.map(|length| number(length, 4)));
-            table.write_record(&cells)?;
-        }
-    }
-    finish(table)
+    let first = ["gait", "s", "theta3_deg", "theta4_deg", "alpha_deg"];
+    let points = CHAIN_POINTS.map(|point| [format!("{point}_x_mm"), format!("{point}_z_mm")]);
+    let header = first.map(String::from).into_iter();
+    let samples = chains.iter().flat_map(|chain| {
+        let samples = chain.samples.iter();
+        samples.map(|sample| (&chain.gait, sample))
+    });
+    let rows = samples.map(|(gait, sample)| {
+        let mut cells = vec![gait.clone(), number(sample.s, 4)];
+        cells.extend(sample.parameters_deg.map(|angle| number(angle, 5)));
+        let points = sample.points_mm.iter().flat_map(|&(x, z)| [x, z]);
+        cells.extend(points.map(|length| number(length, 4)));
+        cells
+    });
+    file(header.chain(points.into_iter().flatten()), rows)
 }
 
 /// `costs.csv`.
@@ -78,18 +62,19 @@ pub fn chains(chains: &[ChainRecord]) -> Result<Vec<u8>, csv::Error> {
 /// # Errors
 /// [`csv::Error`], which writing to memory does not produce.
 pub fn costs(costs: &[CostRecord]) -> Result<Vec<u8>, csv::Error> {
-    let mut table = csv::Writer::from_writer(Vec::new());
-    table.write_record(["gait", "duration_s", "cost_n2m2s", "published_n2m2s"])?;
-    for cost in costs {
-        table.write_record([
+    let rows = costs.iter().map(|cost| {
+        let published = cost.published_n2m2s.map(|cost| number(cost, 3));
+        [
             cost.gait.clone(),
             cost.duration_s.to_string(),
             number(cost.cost_n2m2s, 6),
-            cost.published_n2m2s
-                .map_or_else(String::new, |cost| number(cost, 3)),
-        ])?;
-    }
-    finish(table)
+            published.unwrap_or_default(),
+        ]
+    });
+    file(
+        ["gait", "duration_s", "cost_n2m2s", "published_n2m2s"],
+        rows,
+    )
 }
 
 /// A number with fixed decimals; a negative zero loses its sign.
@@ -105,6 +90,22 @@ pub fn number(value: f64, decimals: usize) -> String {
 /// then the same before and after.
 pub fn as_written(value: f64, decimals: usize) -> f64 {
     number(value, decimals).parse().unwrap_or(value)
+}
+
+/// A table of a header and rows as a file.
+///
+/// # Errors
+/// [`csv::Error`], which writing to memory does not produce.
+pub fn file<C: AsRef<[u8]>, R: IntoIterator<Item = C>>(
+    header: impl IntoIterator<Item: AsRef<[u8]>>,
+    rows: impl IntoIterator<Item = R>,
+) -> Result<Vec<u8>, csv::Error> {
+    let mut table = csv::Writer::from_writer(Vec::new());
+    table.write_record(header)?;
+    for row in rows {
+        table.write_record(row)?;
+    }
+    finish(table)
 }
 
 /// The table as a file.

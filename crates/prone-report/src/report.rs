@@ -243,7 +243,7 @@ fn read(
         return Ok(runs);
     }
     let run = match folder.head.command.as_str() {
-        "crawl run" | "reproduce crawl" | "reproduce pull" => {
+        "crawl run" | "pull run" | "reproduce crawl" | "reproduce pull" | "robot record" => {
             record::read(folder, &|joint| publication.joint_range(joint))
         }
         "optimize" | "crawl frontier" => Run::search(folder, publication.gaits()),

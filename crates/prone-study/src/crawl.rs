@@ -3,10 +3,7 @@
 //! [`summary`] reduces a record to figures, [`record`] makes every file of a record folder. Both
 //! read what [`prone_sim::crawl`] measured.
 
-mod angles;
 pub mod frames;
-mod instants;
-pub mod joints;
 mod model;
 pub mod pull;
 pub mod record;
@@ -14,5 +11,5 @@ mod run;
 mod setup;
 pub mod summary;
 
-pub use run::{Conditions, GaitSource, PastObstacles};
+pub use run::{GaitSource, PastObstacles};
 pub use setup::{CrawlRunError, CrawlSetup, CrawlSetupError, RefusedCycle};

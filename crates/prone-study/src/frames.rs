@@ -172,6 +172,23 @@ fn from_the_right(world: &World, snapshot: &Snapshot) -> Picture {
     camera::ray_cast(&mut world.at(snapshot), &camera, COVER)
 }
 
+/// A camera that looks at a target from a direction and a distance, m, and shows so much height
+/// there, m.
+pub(crate) fn towards(target: DVec3, from: DVec3, distance: f64, height: f64) -> Camera {
+    Camera {
+        position: target + distance * from.normalize(),
+        target,
+        vertical_fov: field_of_view(height, distance),
+        up: DVec3::Z,
+        inside: None,
+    }
+}
+
+/// The angle that shows a height at a distance, rad.
+pub(crate) fn field_of_view(height: f64, distance: f64) -> f64 {
+    2.0 * (height / 2.0 / distance).atan()
+}
+
 /// The pictures one below the other.
 fn stack(pictures: &[Picture]) -> Picture {
     Picture {

@@ -9,6 +9,7 @@ use prone::gait::{CheckedTrajectory, Gait, PhaseDuration, Sample, TrajectoryErro
 use prone::mapping::Mapping;
 use prone::robot::{BodyPoses, ContactGroup, JointAngles, JointId, Robot, Shape};
 use prone_record::crawl_summary::SheetClamp;
+use prone_record::tables;
 
 /// Samples of a sheet: 1 % of the phase apart.
 const INTERVALS: usize = 100;
@@ -94,6 +95,7 @@ pub fn of(
         sample.map_or(f64::NAN, |sample| sample.posture.shoulder.x() * 1e3)
     };
     let samples = trajectory.samples();
+    let clamps = trajectory.clamps().iter();
     Ok(GaitSheet {
         gait: gait.name.clone(),
         description: gait.description.clone(),
@@ -105,7 +107,9 @@ pub fn of(
             .iter()
             .map(|id| robot.joints[id.0].name.clone())
             .collect(),
-        clamps: clamps(robot, &trajectory),
+        clamps: clamps
+            .map(|clamp| SheetClamp::from_clamp(robot, clamp))
+            .collect(),
         ankle_peak_mm: highest(|row| row.centres_mm[0]),
         stride_mm: shoulder_x(samples.last()) - shoulder_x(samples.first()),
         top_mm: highest(|row| row.top_mm),
@@ -169,17 +173,6 @@ pub(crate) fn body_bottom(robot: &Robot, poses: &BodyPoses<Ground>) -> f64 {
     })
 }
 
-fn clamps(robot: &Robot, trajectory: &CheckedTrajectory) -> Vec<SheetClamp> {
-    let clamps = trajectory.clamps().iter().map(|clamp| SheetClamp {
-        joint: robot.joints[clamp.joint.0].name.clone(),
-        samples: clamp.samples,
-        from_percent: clamp.from * 100.0,
-        to_percent: clamp.to * 100.0,
-        largest_deg: clamp.largest.to_degrees(),
-    });
-    clamps.collect()
-}
-
 fn fastest(robot: &Robot, ids: &[JointId], rows: &[SheetRow]) -> (String, f64) {
     let mut fastest = (String::new(), 0.0);
     for pair in rows.windows(2) {
@@ -200,31 +193,23 @@ impl GaitSheet {
     /// # Errors
     /// [`csv::Error`], which writing to memory does not produce.
     pub fn csv(&self) -> Result<Vec<u8>, csv::Error> {
-        let mut table = csv::Writer::from_writer(Vec::new());
-        let mut header: Vec<String> = ["cycle_percent", "time_s"].map(String::from).to_vec();
-        header.extend(
-            ["theta1", "theta2", "theta3", "theta4", "theta5", "alpha"].map(|a| format!("{a}_rad")),
-        );
+        let mut header = vec!["cycle_percent".to_owned(), "time_s".to_owned()];
+        let angles = ["theta1", "theta2", "theta3", "theta4", "theta5", "alpha"];
+        header.extend(angles.map(|angle| format!("{angle}_rad")));
         header.extend(self.joints.iter().map(|joint| format!("{joint}_rad")));
         header.extend(["ankle", "knee", "hip", "shoulder"].map(|centre| format!("{centre}_z_mm")));
         header.extend(["top_mm", "body_bottom_mm"].map(String::from));
-        table.write_record(&header)?;
-        for row in &self.rows {
+        let rows = self.rows.iter().map(|row| {
             let mut cells = vec![
                 format!("{:.1}", row.cycle_percent),
                 format!("{:.4}", row.time_s),
             ];
             let radians = row.chain_rad.iter().chain(&row.joints_rad);
             cells.extend(radians.map(|angle| format!("{angle:.6}")));
-            let heights = row
-                .centres_mm
-                .iter()
-                .chain([&row.top_mm, &row.body_bottom_mm]);
-            cells.extend(heights.map(|height| format!("{height:.3}")));
-            table.write_record(&cells)?;
-        }
-        table
-            .into_inner()
-            .map_err(|error| error.into_error().into())
+            cells.extend(row.centres_mm.map(|height| format!("{height:.3}")));
+            cells.extend([row.top_mm, row.body_bottom_mm].map(|height| format!("{height:.3}")));
+            cells
+        });
+        tables::file(header, rows)
     }
 }

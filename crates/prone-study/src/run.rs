@@ -26,6 +26,7 @@ use prone_record::lock::Lock;
 use prone_record::output::{self, Artefacts};
 use prone_record::program::Program;
 use prone_record::pulls::PullRecord;
+use prone_record::recorded::Command;
 use prone_record::resumption::Opening;
 use prone_record::search_result::SearchResult;
 use prone_record::single_file;
@@ -391,6 +392,7 @@ impl Session {
         let keep = Keep::Shown { pictures: 0 };
         let pull = pull::run(&world, &gait, duration, Start::FirstPose, keep)?;
         let recording = PullRecording {
+            command: Command::Pull,
             robot: &robot,
             world: &world,
             gait: &gait,

@@ -67,7 +67,8 @@ fn a_pull_leaves_the_record_of_a_pull() {
     };
     assert_eq!(pull.record.rows.len(), 20, "one row per control step");
     assert!(pull.artefacts.contains_key("rows.csv"));
-    assert!(pull.artefacts.contains_key("run.json"));
+    let run = String::from_utf8(pull.artefacts["run.json"].clone()).unwrap();
+    assert!(run.contains(r#""command": "pull run""#), "{run}");
 }
 
 #[test]

@@ -368,6 +368,7 @@ fn pull_records(
     for (gait, pull) in &study.shown {
         let file = studied.gait_files.get(&gait.name);
         let recording = PullRecording {
+            command: Command::ReproducePull,
             robot: studied.robot,
             world,
             gait,

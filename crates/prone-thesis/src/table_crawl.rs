@@ -14,7 +14,8 @@ use prone_sim::{LoadedRobot, World, WorldError};
 use crate::published::{TABLE_CRAWLS, TableCrawl};
 use crate::run_info::TableInfo;
 use prone_record::crawl_summary::CrawlSummary;
-use prone_study::crawl::{Conditions, GaitSource, summary};
+use prone_record::record_info::CrawlOptions;
+use prone_study::crawl::{GaitSource, summary};
 use prone_study::watch::{Progress, Watch};
 
 /// How the published figures came about.
@@ -139,19 +140,15 @@ impl TableStudy {
     }
 
     /// Under which conditions an experiment was crawled.
-    pub(crate) fn conditions(&self, experiment: &TableExperiment) -> Conditions {
-        Conditions {
-            most_cycles: experiment.published.cycles,
-            until_past_mm: None,
-            time_scale: TimeScale::ONE.value(),
-            steering: "none",
-            turn_command_deg: 0.0,
-            heading_deg: None,
-            joint_offset_deg: 0.0,
-            seed: None,
-            joint_offsets_rad: Vec::new(),
+    pub(crate) fn conditions(&self, experiment: &TableExperiment) -> CrawlOptions {
+        CrawlOptions {
+            most_cycles: Some(experiment.published.cycles),
+            time_scale: Some(TimeScale::ONE.value()),
+            steering: Some("none".to_owned()),
+            turn_command_deg: Some(0.0),
+            joint_offset_deg: Some(0.0),
             scene_text: Some(self.scene_text.clone()),
-            uphill: None,
+            ..CrawlOptions::default()
         }
     }
 }

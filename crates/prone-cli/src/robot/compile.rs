@@ -36,9 +36,7 @@ pub(crate) fn beside(loaded: &LoadedRobot) -> Option<Result<CompiledRobot, Compi
         return None;
     }
     match CompiledRobot::read_beside(files) {
-        Err(CompiledRobotError::Read { source, .. }) if source.kind() == ErrorKind::NotFound => {
-            None
-        }
+        Err(CompiledRobotError::Read(error)) if error.source.kind() == ErrorKind::NotFound => None,
         read => Some(read),
     }
 }

@@ -1,130 +1,187 @@
 //! The chain of a document, and what was published of it.
 
+use serde::{Deserialize, Serialize};
+
 use prone::chain::ClosedChain;
 use prone::frames::{Link, Point};
-use prone::robot::{BodyId, ChainLayout, FixedArm, PublishedChain, SideLayout, bounds};
+use prone::robot::{BodyId, ChainLayout, FixedArm, PublishedChain, Robot, SideLayout};
 
-use super::document::{
-    ChainDocument, FixedArmDocument, PointDocument, PublishedDocument, SideDocument,
-};
-use super::names::Names;
-use super::place::{Place, Violation};
+use super::names::{Names, body_name, joint_name};
+use super::place::{Place, Violation, optional};
 
-pub(super) fn read(
-    place: Place<'_>,
-    document: &ChainDocument,
-    names: &Names<'_>,
-) -> Result<ChainLayout, Violation> {
-    let ChainDocument {
-        left,
-        right,
-        span_m,
-        projected_upper_arm_m,
-        published,
-        fixed_arm,
-    } = document;
-    let arm = place.key("projected_upper_arm_m");
-    Ok(ChainLayout {
-        left: side(place.key("left"), left, names)?,
-        right: side(place.key("right"), right, names)?,
-        span: place.key("span_m").positive(*span_m, bounds::LENGTH)?,
-        projected_upper_arm: arm.positive(*projected_upper_arm_m, bounds::LENGTH)?,
-        published: published
-            .as_ref()
-            .map(|published| read_published(place.key("published"), published))
-            .transpose()?,
-        fixed_arm: fixed_arm
-            .as_ref()
-            .map(|fixed| read_fixed_arm(place.key("fixed_arm"), fixed))
-            .transpose()?,
-    })
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ChainDocument {
+    pub(super) left: SideDocument,
+    pub(super) right: SideDocument,
+    pub(super) span_m: f64,
+    pub(super) projected_upper_arm_m: f64,
+    #[serde(deserialize_with = "Option::deserialize")]
+    published: Option<PublishedDocument>,
+    #[serde(deserialize_with = "Option::deserialize")]
+    fixed_arm: Option<FixedArmDocument>,
 }
 
-fn side(
-    place: Place<'_>,
-    document: &SideDocument,
-    names: &Names<'_>,
-) -> Result<SideLayout, Violation> {
-    let SideDocument {
-        toe,
-        ankle,
-        knee,
-        hip,
-        shoulder,
-        shoulder_roll,
-        elbow,
-        forearm: [upper, lower],
-        forearm_direction,
-    } = document;
-    let joint = |key, name: &str| names.joint(place.key(key), name);
-    let forearm = place.key("forearm");
-    let direction = place.key("forearm_direction");
-    Ok(SideLayout {
-        toe: point(place.key("toe"), toe, names)?,
-        ankle: joint("ankle", ankle)?,
-        knee: joint("knee", knee)?,
-        hip: joint("hip", hip)?,
-        shoulder: joint("shoulder", shoulder)?,
-        shoulder_roll: joint("shoulder_roll", shoulder_roll)?,
-        elbow: point(place.key("elbow"), elbow, names)?,
-        forearm: [
-            names.joint(forearm.index(0), upper)?,
-            names.joint(forearm.index(1), lower)?,
-        ],
-        forearm_direction: direction.direction(*forearm_direction)?,
-    })
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SideDocument {
+    pub(super) toe: PointDocument,
+    ankle: String,
+    knee: String,
+    hip: String,
+    shoulder: String,
+    shoulder_roll: String,
+    pub(super) elbow: PointDocument,
+    forearm: [String; 2],
+    forearm_direction: [f64; 3],
 }
 
-fn point(
-    place: Place<'_>,
-    document: &PointDocument,
-    names: &Names<'_>,
-) -> Result<(BodyId, Point<Link>), Violation> {
-    let PointDocument { body, position_m } = document;
-    let body = names.body(place.key("body"), body)?;
-    Ok((body, place.key("position_m").point(*position_m)?))
+/// A point of a body.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PointDocument {
+    body: String,
+    pub(super) position_m: [f64; 3],
 }
 
-fn read_published(
-    place: Place<'_>,
-    document: &PublishedDocument,
-) -> Result<PublishedChain, Violation> {
-    let PublishedDocument {
-        links_m,
-        span_m,
-        ankle_offset_rad,
-        shoulder_roll_rad,
-    } = document;
-    let links = place.key("links_m");
-    for (index, length) in links_m.iter().enumerate() {
-        links.index(index).positive(*length, bounds::LENGTH)?;
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PublishedDocument {
+    /// l1 to l5.
+    links_m: [f64; 5],
+    span_m: f64,
+    ankle_offset_rad: f64,
+    shoulder_roll_rad: f64,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FixedArmDocument {
+    shoulder_roll_rad: f64,
+    forearm_rad: [f64; 2],
+}
+
+impl ChainDocument {
+    pub(super) fn new(robot: &Robot) -> Self {
+        let chain = &robot.chain;
+        Self {
+            left: SideDocument::new(robot, &chain.left),
+            right: SideDocument::new(robot, &chain.right),
+            span_m: chain.span,
+            projected_upper_arm_m: chain.projected_upper_arm,
+            published: chain.published.as_ref().map(PublishedDocument::new),
+            fixed_arm: chain.fixed_arm.as_ref().map(FixedArmDocument::new),
+        }
     }
-    let [l1, l2, l3, l4, l5] = *links_m;
-    Ok(PublishedChain {
-        chain: ClosedChain {
-            toe_to_ankle: l1,
-            ankle_to_knee: l2,
-            knee_to_hip: l3,
-            hip_to_shoulder: l4,
-            shoulder_to_elbow: l5,
-            span: place.key("span_m").positive(*span_m, bounds::LENGTH)?,
-        },
-        ankle_offset: place.key("ankle_offset_rad").angle(*ankle_offset_rad)?,
-        shoulder_roll: place.key("shoulder_roll_rad").angle(*shoulder_roll_rad)?,
-    })
+
+    pub(super) fn read(&self, at: Place<'_>, names: &Names<'_>) -> Result<ChainLayout, Violation> {
+        let length = |key, metres| at.key(key).length(metres);
+        let (published, fixed) = (at.key("published"), at.key("fixed_arm"));
+        Ok(ChainLayout {
+            left: self.left.read(at.key("left"), names)?,
+            right: self.right.read(at.key("right"), names)?,
+            span: length("span_m", self.span_m)?,
+            projected_upper_arm: length("projected_upper_arm_m", self.projected_upper_arm_m)?,
+            published: optional(self.published.as_ref(), |it| it.read(published))?,
+            fixed_arm: optional(self.fixed_arm.as_ref(), |it| it.read(fixed))?,
+        })
+    }
 }
 
-fn read_fixed_arm(place: Place<'_>, document: &FixedArmDocument) -> Result<FixedArm, Violation> {
-    let FixedArmDocument {
-        shoulder_roll_rad,
-        forearm_rad: [upper, lower],
-    } = *document;
-    let forearm = place.key("forearm_rad");
-    Ok(FixedArm {
-        shoulder_roll: place.key("shoulder_roll_rad").angle(shoulder_roll_rad)?,
-        forearm: [
-            forearm.index(0).angle(upper)?,
-            forearm.index(1).angle(lower)?,
-        ],
-    })
+impl SideDocument {
+    fn new(robot: &Robot, side: &SideLayout) -> Self {
+        let joint = |id| joint_name(robot, id);
+        Self {
+            toe: PointDocument::new(robot, side.toe),
+            ankle: joint(side.ankle),
+            knee: joint(side.knee),
+            hip: joint(side.hip),
+            shoulder: joint(side.shoulder),
+            shoulder_roll: joint(side.shoulder_roll),
+            elbow: PointDocument::new(robot, side.elbow),
+            forearm: side.forearm.map(joint),
+            forearm_direction: side.forearm_direction.to_array(),
+        }
+    }
+
+    fn read(&self, at: Place<'_>, names: &Names<'_>) -> Result<SideLayout, Violation> {
+        let joint = |key, name: &str| names.joint(at.key(key), name);
+        let (forearm, [upper, lower]) = (at.key("forearm"), &self.forearm);
+        let direction = at.key("forearm_direction");
+        Ok(SideLayout {
+            toe: self.toe.read(at.key("toe"), names)?,
+            ankle: joint("ankle", &self.ankle)?,
+            knee: joint("knee", &self.knee)?,
+            hip: joint("hip", &self.hip)?,
+            shoulder: joint("shoulder", &self.shoulder)?,
+            shoulder_roll: joint("shoulder_roll", &self.shoulder_roll)?,
+            elbow: self.elbow.read(at.key("elbow"), names)?,
+            forearm: [
+                names.joint(Place::Element(&forearm, 0), upper)?,
+                names.joint(Place::Element(&forearm, 1), lower)?,
+            ],
+            forearm_direction: direction.direction(self.forearm_direction)?,
+        })
+    }
+}
+
+impl PointDocument {
+    fn new(robot: &Robot, (body, point): (BodyId, Point<Link>)) -> Self {
+        Self {
+            body: body_name(robot, body),
+            position_m: point.metres().to_array(),
+        }
+    }
+
+    fn read(&self, at: Place<'_>, names: &Names<'_>) -> Result<(BodyId, Point<Link>), Violation> {
+        let body = names.body(at.key("body"), &self.body)?;
+        Ok((body, at.key("position_m").point(self.position_m)?))
+    }
+}
+
+impl PublishedDocument {
+    fn new(published: &PublishedChain) -> Self {
+        Self {
+            links_m: published.chain.links(),
+            span_m: published.chain.span,
+            ankle_offset_rad: published.ankle_offset,
+            shoulder_roll_rad: published.shoulder_roll,
+        }
+    }
+
+    fn read(&self, at: Place<'_>) -> Result<PublishedChain, Violation> {
+        let angle = |key, radians| at.key(key).angle(radians);
+        let links = at.key("links_m");
+        let [l1, l2, l3, l4, l5] = links.array(self.links_m, |at, metres| at.length(metres))?;
+        Ok(PublishedChain {
+            chain: ClosedChain {
+                toe_to_ankle: l1,
+                ankle_to_knee: l2,
+                knee_to_hip: l3,
+                hip_to_shoulder: l4,
+                shoulder_to_elbow: l5,
+                span: at.key("span_m").length(self.span_m)?,
+            },
+            ankle_offset: angle("ankle_offset_rad", self.ankle_offset_rad)?,
+            shoulder_roll: angle("shoulder_roll_rad", self.shoulder_roll_rad)?,
+        })
+    }
+}
+
+impl FixedArmDocument {
+    const fn new(fixed: &FixedArm) -> Self {
+        Self {
+            shoulder_roll_rad: fixed.shoulder_roll,
+            forearm_rad: fixed.forearm,
+        }
+    }
+
+    fn read(&self, at: Place<'_>) -> Result<FixedArm, Violation> {
+        let roll = at.key("shoulder_roll_rad");
+        let forearm = at.key("forearm_rad");
+        Ok(FixedArm {
+            shoulder_roll: roll.angle(self.shoulder_roll_rad)?,
+            forearm: forearm.array(self.forearm_rad, |at, radians| at.angle(radians))?,
+        })
+    }
 }

@@ -1,9 +1,28 @@
 //! A robot as JSON: mirrors of the types in [`prone::robot`], whose keys say the units.
 //!
-//! Bodies and joints are referred to by name. Every key has to be there, those of optional parts
-//! with `null`, and no other.
+//! Bodies and joints are referred to by name. Every key has to be there, and no other: an optional
+//! part that is left out, which `Option::deserialize` refuses, is a text that was cut and not a robot
+//! without the part. Each mirror is made of its part of a robot by `new`, and checks and
+//! gives it back by `read`. Both name all fields, so that one that the domain gains does not compile
+//! until it is read, and written.
 
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Serialize};
+
+use prone::mapping;
+use prone::robot::{Body, ContactGroup, JointAngles, JointId, Robot, check_limbs};
+
+use super::bodies::{BodyDocument, JointDocument, ShapeDocument, check_moved};
+use super::chain::ChainDocument;
+use super::control::{ControlDocument, ImuDocument, SearchDocument, StudyDocument};
+use super::names::{self, Names};
+use super::place::{Place, Violation, optional};
+
+/// More bodies, and so more joints, than any robot has.
+const MOST_BODIES: usize = 10_000;
+/// More shapes than any robot has.
+const MOST_SHAPES: usize = 10_000;
+/// More postures than anybody lists.
+const MOST_POSTURES: usize = 1_000;
 
 /// A robot as it stands in a JSON text: in a compiled robot, and in whatever else will hold one.
 ///
@@ -12,223 +31,144 @@ use serde::{Deserialize, Deserializer, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RobotDocument {
-    pub(super) name: String,
-    #[serde(deserialize_with = "stated")]
-    pub(super) standing_height_m: Option<f64>,
+    name: String,
+    #[serde(deserialize_with = "Option::deserialize")]
+    standing_height_m: Option<f64>,
     pub(super) bodies: Vec<BodyDocument>,
     pub(super) joints: Vec<JointDocument>,
     pub(super) shapes: Vec<ShapeDocument>,
     pub(super) chain: ChainDocument,
-    pub(super) postures: Vec<PostureDocument>,
-    pub(super) study: StudyDocument,
-    #[serde(deserialize_with = "stated")]
-    pub(super) imu: Option<ImuDocument>,
-    pub(super) control: ControlDocument,
-    pub(super) search: SearchDocument,
-    pub(super) lying_length_m: f64,
-}
-
-/// A rigid motion: where the source's origin is, and its rotation with the real part first.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct PoseDocument {
-    pub(super) position_m: [f64; 3],
-    pub(super) quaternion_wxyz: [f64; 4],
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct BodyDocument {
-    pub(super) name: String,
-    #[serde(deserialize_with = "stated")]
-    pub(super) parent: Option<String>,
-    pub(super) parent_from_body: PoseDocument,
-    #[serde(deserialize_with = "stated")]
-    pub(super) joint: Option<String>,
-    pub(super) mass_kg: f64,
-    pub(super) centre_of_mass_m: [f64; 3],
-    pub(super) contact_group: ContactGroupName,
-    pub(super) is_head: bool,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub(super) enum ContactGroupName {
-    Toe,
-    Elbow,
-    Torso,
-    Leg,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct JointDocument {
-    pub(super) name: String,
-    pub(super) body: String,
-    pub(super) axis: [f64; 3],
-    pub(super) anchor_m: [f64; 3],
-    pub(super) range_rad: [f64; 2],
-    pub(super) effort_limit_nm: f64,
-    pub(super) speed_limit_rad_s: f64,
-    pub(super) servo_gain_nms: f64,
-    #[serde(deserialize_with = "stated")]
-    pub(super) motor: Option<MotorDocument>,
-}
-
-/// A geared motor; torques and speed are those at the joint.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct MotorDocument {
-    pub(super) ratio: f64,
-    pub(super) nominal_nm: f64,
-    pub(super) stall_nm: f64,
-    #[serde(deserialize_with = "stated")]
-    pub(super) no_load_speed_rad_s: Option<f64>,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct ShapeDocument {
-    pub(super) name: String,
-    pub(super) body: String,
-    pub(super) link_from_geom: PoseDocument,
-    pub(super) solid: SolidDocument,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase", deny_unknown_fields)]
-pub(super) enum SolidDocument {
-    Sphere { radius_m: f64 },
-    Capsule { radius_m: f64, half_length_m: f64 },
-    Ellipsoid { half_axes_m: [f64; 3] },
-    Cylinder { radius_m: f64, half_length_m: f64 },
-    Cuboid { half_edges_m: [f64; 3] },
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct ChainDocument {
-    pub(super) left: SideDocument,
-    pub(super) right: SideDocument,
-    pub(super) span_m: f64,
-    pub(super) projected_upper_arm_m: f64,
-    #[serde(deserialize_with = "stated")]
-    pub(super) published: Option<PublishedDocument>,
-    #[serde(deserialize_with = "stated")]
-    pub(super) fixed_arm: Option<FixedArmDocument>,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct SideDocument {
-    pub(super) toe: PointDocument,
-    pub(super) ankle: String,
-    pub(super) knee: String,
-    pub(super) hip: String,
-    pub(super) shoulder: String,
-    pub(super) shoulder_roll: String,
-    pub(super) elbow: PointDocument,
-    pub(super) forearm: [String; 2],
-    pub(super) forearm_direction: [f64; 3],
-}
-
-/// A point of a body.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct PointDocument {
-    pub(super) body: String,
-    pub(super) position_m: [f64; 3],
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct PublishedDocument {
-    /// l1 to l5.
-    pub(super) links_m: [f64; 5],
-    pub(super) span_m: f64,
-    pub(super) ankle_offset_rad: f64,
-    pub(super) shoulder_roll_rad: f64,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct FixedArmDocument {
-    pub(super) shoulder_roll_rad: f64,
-    pub(super) forearm_rad: [f64; 2],
+    postures: Vec<PostureDocument>,
+    study: StudyDocument,
+    #[serde(deserialize_with = "Option::deserialize")]
+    imu: Option<ImuDocument>,
+    control: ControlDocument,
+    search: SearchDocument,
+    lying_length_m: f64,
 }
 
 /// A posture, one angle for each joint in their order. Postures are a list, not an object: of two
 /// keys with one name JSON's readers take the last one in silence.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct PostureDocument {
-    pub(super) name: String,
-    pub(super) angles_rad: Vec<f64>,
+struct PostureDocument {
+    name: String,
+    angles_rad: Vec<f64>,
 }
 
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct StudyDocument {
-    pub(super) start_posture: String,
-    pub(super) stops: Vec<StopDocument>,
+impl RobotDocument {
+    /// Writes a robot down, every number as it is.
+    ///
+    /// # Panics
+    /// Where the robot's bodies and joints refer to ones that it has not.
+    pub fn from_robot(robot: &Robot) -> Self {
+        let (bodies, joints, shapes) = (&robot.bodies, &robot.joints, &robot.shapes);
+        let postures = robot.postures.iter().map(|(name, angles)| PostureDocument {
+            name: name.clone(),
+            angles_rad: angles.as_slice().to_vec(),
+        });
+        Self {
+            name: robot.name.clone(),
+            standing_height_m: robot.standing_height,
+            bodies: bodies
+                .iter()
+                .map(|body| BodyDocument::new(robot, body))
+                .collect(),
+            joints: joints
+                .iter()
+                .map(|joint| JointDocument::new(robot, joint))
+                .collect(),
+            shapes: shapes
+                .iter()
+                .map(|shape| ShapeDocument::new(robot, shape))
+                .collect(),
+            chain: ChainDocument::new(robot),
+            postures: postures.collect(),
+            study: StudyDocument::new(robot),
+            imu: robot.imu.as_ref().map(ImuDocument::new),
+            control: ControlDocument::new(&robot.control),
+            search: SearchDocument::new(&robot.search),
+            lying_length_m: robot.lying_length,
+        }
+    }
+
+    /// The robot, checked: what loads can crawl.
+    ///
+    /// # Errors
+    /// [`Violation`], the first one, with its place below `root`, the key that this document has in
+    /// the text around it.
+    pub fn robot(&self, root: &'static str) -> Result<Robot, Violation> {
+        let at = Place::Root(root);
+        let (bodies, joints) = (at.key("bodies"), at.key("joints"));
+        let (shapes, postures) = (at.key("shapes"), at.key("postures"));
+        let names = Names {
+            bodies: names::index(bodies, &self.bodies, MOST_BODIES, |it| &it.name)?,
+            joints: names::index(joints, &self.joints, MOST_BODIES, |it| &it.name)?,
+        };
+        names::index(shapes, &self.shapes, MOST_SHAPES, |it| &it.name)?;
+        names::index(postures, &self.postures, MOST_POSTURES, |it| &it.name)?;
+        let height = at.key("standing_height_m");
+        let robot = Robot {
+            name: at.key("name").name(&self.name)?,
+            standing_height: optional(self.standing_height_m, |metres| height.length(metres))?,
+            bodies: bodies.each(&self.bodies, |at, index, body| body.read(at, index, &names))?,
+            joints: joints.each(&self.joints, |at, _, joint| joint.read(at, &names))?,
+            shapes: shapes.each(&self.shapes, |at, _, shape| shape.read(at, &names))?,
+            chain: self.chain.read(at.key("chain"), &names)?,
+            postures: postures
+                .each(&self.postures, |at, _, it| it.read(at, self.joints.len()))?
+                .into_iter()
+                .collect(),
+            study: self.study.read(at.key("study"), &names)?,
+            imu: optional(self.imu.as_ref(), |imu| imu.read(at.key("imu")))?,
+            control: self.control.read(at.key("control"))?,
+            search: self.search.read(at.key("search"))?,
+            lying_length: at.key("lying_length_m").length(self.lying_length_m)?,
+        };
+        check_moved(at, &robot)?;
+        check_whole(at, &robot)?;
+        Ok(robot)
+    }
 }
 
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct StopDocument {
-    pub(super) joint: String,
-    pub(super) range_rad: [f64; 2],
+impl PostureDocument {
+    fn read(&self, at: Place<'_>, joints: usize) -> Result<(String, JointAngles), Violation> {
+        let (place, angles) = (at.key("angles_rad"), &self.angles_rad);
+        if angles.len() != joints {
+            let given = angles.len();
+            return Err(place.violation(format!("{given} angles for {joints} joints")));
+        }
+        let name = at.key("name").name(&self.name)?;
+        let angle = |JointId(index)| Place::Element(&place, index).angle(angles[index]);
+        Ok((name, JointAngles::try_from_fn(joints, angle)?))
+    }
 }
 
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct ImuDocument {
-    pub(super) site: String,
-    pub(super) root_from_sensor: PoseDocument,
-    pub(super) accelerometer_m_s2: NoiseDocument,
-    pub(super) gyroscope_rad_s: NoiseDocument,
-}
-
-/// What a sensor adds to the truth, in its unit.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct NoiseDocument {
-    pub(super) standard_deviation: f64,
-    pub(super) bias_bound: f64,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct ControlDocument {
-    pub(super) command_step_s: f64,
-    pub(super) servo_rate_per_s: f64,
-    pub(super) servo_speed_rad_s: f64,
-    pub(super) stiff_servo_gain_nms: f64,
-    pub(super) steering: SteeringDocument,
-    pub(super) uphill_rad: f64,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct SteeringDocument {
-    pub(super) yaw: f64,
-    pub(super) lateral_rad_m: f64,
-    pub(super) lateral_sum_rad_m: f64,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct SearchDocument {
-    pub(super) least_advance_m: f64,
-    pub(super) upper_arm_rad: [f64; 2],
-}
-
-/// An optional part whose key must be there: one that is left out is a text that was cut, not a
-/// robot without the part.
-pub(super) fn stated<'de, D, T>(deserializer: D) -> Result<Option<T>, D::Error>
-where
-    D: Deserializer<'de>,
-    T: Deserialize<'de>,
-{
-    Option::deserialize(deserializer)
+/// What the parts say together.
+fn check_whole(at: Place<'_>, robot: &Robot) -> Result<(), Violation> {
+    let bodies = at.key("bodies");
+    if robot.bodies.is_empty() {
+        return Err(bodies.violation("a robot has a body"));
+    }
+    let mass = robot.mass();
+    if mass.is_nan() || mass <= 0.0 {
+        return Err(bodies.violation("the robot has no mass"));
+    }
+    let is_toe = |body: &Body| body.contact_group == ContactGroup::Toe;
+    if !robot.bodies.iter().any(is_toe) {
+        return Err(bodies.violation("no contact_group is toe"));
+    }
+    if robot.shapes.is_empty() {
+        return Err(at.key("shapes").violation("nothing can touch the floor"));
+    }
+    let start = &robot.study.start_posture;
+    if !robot.postures.contains_key(start) {
+        let study = at.key("study");
+        let place = study.key("start_posture");
+        return Err(place.violation(format!("{start:?} is none of the postures")));
+    }
+    let chain = at.key("chain");
+    check_limbs(robot).map_err(|error| chain.violation(error))?;
+    // The chain must be a sagittal one and its arm projectable, or nothing else works.
+    mapping::check_kinematics(robot).map_err(|error| chain.violation(error))
 }

@@ -2,74 +2,59 @@
 
 use std::collections::BTreeMap;
 
-use prone::robot::{BodyId, JointId};
+use prone::robot::{BodyId, JointId, Robot};
 
-use super::document::{BodyDocument, JointDocument};
 use super::place::{Place, Violation};
 
-/// Where each name is. Names are distinct: that is checked before.
+/// The place of each of some distinct names in their list.
+pub(super) type Index<'a> = BTreeMap<&'a str, usize>;
+
+/// The places of bodies and joints.
 pub(super) struct Names<'a> {
-    bodies: &'a [BodyDocument],
-    joints: &'a [JointDocument],
-    body_ids: BTreeMap<&'a str, BodyId>,
-    joint_ids: BTreeMap<&'a str, JointId>,
+    pub(super) bodies: Index<'a>,
+    pub(super) joints: Index<'a>,
 }
 
-impl<'a> Names<'a> {
-    pub(super) fn of(bodies: &'a [BodyDocument], joints: &'a [JointDocument]) -> Self {
-        let body_ids = bodies.iter().enumerate();
-        let joint_ids = joints.iter().enumerate();
-        Self {
-            bodies,
-            joints,
-            body_ids: body_ids
-                .map(|(index, body)| (body.name.as_str(), BodyId(index)))
-                .collect(),
-            joint_ids: joint_ids
-                .map(|(index, joint)| (joint.name.as_str(), JointId(index)))
-                .collect(),
+impl Names<'_> {
+    pub(super) fn body(&self, at: Place<'_>, name: &str) -> Result<BodyId, Violation> {
+        let id = self.bodies.get(name).copied().map(BodyId);
+        id.ok_or_else(|| at.violation(format!("{name:?} is none of the bodies")))
+    }
+
+    pub(super) fn joint(&self, at: Place<'_>, name: &str) -> Result<JointId, Violation> {
+        let id = self.joints.get(name).copied().map(JointId);
+        id.ok_or_else(|| at.violation(format!("{name:?} is none of the joints")))
+    }
+}
+
+/// Where each name of a list is; a list has at most so many, and none twice.
+pub(super) fn index<'a, D>(
+    at: Place<'_>,
+    list: &'a [D],
+    most: usize,
+    name: fn(&D) -> &str,
+) -> Result<Index<'a>, Violation> {
+    if list.len() > most {
+        return Err(at.violation(format!("{} are more than {most}", list.len())));
+    }
+    let mut names = Index::new();
+    for (index, name) in list.iter().map(name).enumerate() {
+        if names.insert(name, index).is_some() {
+            let element = Place::Element(&at, index);
+            return Err(element
+                .key("name")
+                .violation(format!("{name:?} is there twice")));
         }
     }
+    Ok(names)
+}
 
-    pub(super) fn body(&self, place: Place<'_>, name: &str) -> Result<BodyId, Violation> {
-        let id = self.body_ids.get(name).copied();
-        id.ok_or_else(|| place.violation(format!("{name:?} is none of the bodies")))
-    }
+/// Name of a body of a robot.
+pub(super) fn body_name(robot: &Robot, BodyId(index): BodyId) -> String {
+    robot.bodies[index].name.clone()
+}
 
-    pub(super) fn joint(&self, place: Place<'_>, name: &str) -> Result<JointId, Violation> {
-        let id = self.joint_ids.get(name).copied();
-        id.ok_or_else(|| place.violation(format!("{name:?} is none of the joints")))
-    }
-
-    /// The joint that a body says it is moved by, if the joint says so too.
-    pub(super) fn joint_that_moves(
-        &self,
-        place: Place<'_>,
-        name: &str,
-        body: &str,
-    ) -> Result<JointId, Violation> {
-        let id = self.joint(place, name)?;
-        let moved = &self.joints[id.0].body;
-        if moved == body {
-            return Ok(id);
-        }
-        Err(place.violation(format!("{name:?} moves {moved:?}, not {body:?}")))
-    }
-
-    /// The body that a joint says it moves, if the body says so too.
-    pub(super) fn body_moved_by(
-        &self,
-        place: Place<'_>,
-        name: &str,
-        joint: &str,
-    ) -> Result<BodyId, Violation> {
-        let id = self.body(place, name)?;
-        match &self.bodies[id.0].joint {
-            Some(mover) if mover == joint => Ok(id),
-            Some(mover) => {
-                Err(place.violation(format!("{name:?} is moved by {mover:?}, not {joint:?}")))
-            }
-            None => Err(place.violation(format!("{name:?} is moved by no joint, not {joint:?}"))),
-        }
-    }
+/// Name of a joint of a robot.
+pub(super) fn joint_name(robot: &Robot, JointId(index): JointId) -> String {
+    robot.joints[index].name.clone()
 }

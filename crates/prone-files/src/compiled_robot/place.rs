@@ -3,15 +3,13 @@
 use std::fmt;
 use std::ops::RangeInclusive;
 
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 
-use prone::frames::{Frame, Point, Transform};
+use prone::frames::{Frame, Point};
 use prone::robot::{Range, bounds};
 
-use super::document::PoseDocument;
-
 /// Longest name, bytes.
-const LONGEST_NAME: usize = 256;
+pub(super) const LONGEST_NAME: usize = 256;
 
 /// Something in a robot's document that no robot has.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -25,50 +23,28 @@ pub struct Violation {
 
 /// A place, known by the steps that lead to it.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place<'a> {
-    within: Option<&'a Place<'a>>,
-    step: Step,
-}
-
-#[derive(Debug, Clone, Copy)]
-enum Step {
-    Key(&'static str),
-    Index(usize),
+pub(super) enum Place<'a> {
+    /// The value of a key of the whole text.
+    Root(&'static str),
+    /// The value of a key.
+    Key(&'a Place<'a>, &'static str),
+    /// An element of an array.
+    Element(&'a Place<'a>, usize),
 }
 
 impl fmt::Display for Place<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match (self.within, self.step) {
-            (None, Step::Key(key)) => f.write_str(key),
-            (None, Step::Index(index)) => write!(f, "[{index}]"),
-            (Some(within), Step::Key(key)) => write!(f, "{within}.{key}"),
-            (Some(within), Step::Index(index)) => write!(f, "{within}[{index}]"),
+        match self {
+            Self::Root(key) => f.write_str(key),
+            Self::Key(within, key) => write!(f, "{within}.{key}"),
+            Self::Element(within, index) => write!(f, "{within}[{index}]"),
         }
     }
 }
 
 impl Place<'_> {
-    pub(super) const fn root(key: &'static str) -> Place<'static> {
-        Place {
-            within: None,
-            step: Step::Key(key),
-        }
-    }
-
-    /// The value of a key.
     pub(super) const fn key(&self, key: &'static str) -> Place<'_> {
-        Place {
-            within: Some(self),
-            step: Step::Key(key),
-        }
-    }
-
-    /// An element of an array.
-    pub(super) const fn index(&self, index: usize) -> Place<'_> {
-        Place {
-            within: Some(self),
-            step: Step::Index(index),
-        }
+        Place::Key(self, key)
     }
 
     pub(super) fn violation(&self, message: impl fmt::Display) -> Violation {
@@ -76,6 +52,30 @@ impl Place<'_> {
             place: self.to_string(),
             message: message.to_string(),
         }
+    }
+
+    /// Reads the elements of an array, each with its place and its index.
+    pub(super) fn each<D, T>(
+        &self,
+        elements: &[D],
+        read: impl Fn(Place<'_>, usize, &D) -> Result<T, Violation>,
+    ) -> Result<Vec<T>, Violation> {
+        let elements = elements.iter().enumerate();
+        elements
+            .map(|(index, element)| read(Place::Element(self, index), index, element))
+            .collect()
+    }
+
+    /// Reads the elements of an array of one length.
+    pub(super) fn array<const N: usize>(
+        &self,
+        values: [f64; N],
+        read: impl Fn(Place<'_>, f64) -> Result<f64, Violation>,
+    ) -> Result<[f64; N], Violation> {
+        for (index, value) in values.into_iter().enumerate() {
+            read(Place::Element(self, index), value)?;
+        }
+        Ok(values)
     }
 
     /// A number within bounds; NaN is in none.
@@ -95,30 +95,27 @@ impl Place<'_> {
         Err(self.violation(format!("{value:?} is not above 0 and at most {largest}")))
     }
 
+    /// A length, m.
+    pub(super) fn length(&self, metres: f64) -> Result<f64, Violation> {
+        self.positive(metres, bounds::LENGTH)
+    }
+
     /// An angle within a turn.
     pub(super) fn angle(&self, radians: f64) -> Result<f64, Violation> {
         self.within(radians, -bounds::ANGLE..=bounds::ANGLE)
     }
 
-    /// Coordinates, m.
-    pub(super) fn coordinates(&self, metres: [f64; 3]) -> Result<DVec3, Violation> {
-        for (index, value) in metres.into_iter().enumerate() {
-            let place = self.index(index);
-            place.within(value, -bounds::LENGTH..=bounds::LENGTH)?;
-        }
-        Ok(DVec3::from_array(metres))
-    }
-
     /// Lengths, m.
     pub(super) fn lengths(&self, metres: [f64; 3]) -> Result<DVec3, Violation> {
-        for (index, value) in metres.into_iter().enumerate() {
-            self.index(index).positive(value, bounds::LENGTH)?;
-        }
+        let metres = self.array(metres, |at, value| at.length(value))?;
         Ok(DVec3::from_array(metres))
     }
 
+    /// A point by its coordinates, m.
     pub(super) fn point<F: Frame>(&self, metres: [f64; 3]) -> Result<Point<F>, Violation> {
-        Ok(Point::new(self.coordinates(metres)?))
+        let reach = -bounds::LENGTH..=bounds::LENGTH;
+        let metres = self.array(metres, |at, value| at.within(value, reach.clone()))?;
+        Ok(Point::new(DVec3::from_array(metres)))
     }
 
     /// A unit vector.
@@ -128,23 +125,8 @@ impl Place<'_> {
         Ok(vector)
     }
 
-    pub(super) fn pose<A: Frame, B: Frame>(
-        &self,
-        pose: &PoseDocument,
-    ) -> Result<Transform<A, B>, Violation> {
-        let PoseDocument {
-            position_m,
-            quaternion_wxyz: [w, x, y, z],
-        } = *pose;
-        let position = self.key("position_m").coordinates(position_m)?;
-        let turn = DQuat::from_xyzw(x, y, z, w);
-        let place = self.key("quaternion_wxyz");
-        place.unit("quaternion", turn.length())?;
-        Ok(Transform::new(turn, position))
-    }
-
     /// The length of a unit vector or quaternion; NaN is none.
-    fn unit(&self, what: &str, length: f64) -> Result<(), Violation> {
+    pub(super) fn unit(&self, what: &str, length: f64) -> Result<(), Violation> {
         if (length - 1.0).abs() < bounds::UNIT {
             return Ok(());
         }
@@ -165,14 +147,7 @@ impl Place<'_> {
         )))
     }
 
-    /// How many of something there are.
-    pub(super) fn count(&self, count: usize, most: usize) -> Result<(), Violation> {
-        if count <= most {
-            return Ok(());
-        }
-        Err(self.violation(format!("{count} are more than {most}")))
-    }
-
+    /// A name that is neither empty nor too long.
     pub(super) fn name(&self, name: &str) -> Result<String, Violation> {
         match name.len() {
             0 => Err(self.violation("a name is empty")),
@@ -182,4 +157,12 @@ impl Place<'_> {
             ))),
         }
     }
+}
+
+/// Reads a part if it is there.
+pub(super) fn optional<D, T>(
+    part: Option<D>,
+    read: impl FnOnce(D) -> Result<T, Violation>,
+) -> Result<Option<T>, Violation> {
+    part.map(read).transpose()
 }

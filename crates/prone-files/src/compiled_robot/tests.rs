@@ -400,7 +400,7 @@ fn limit_only_a_regular_file_of_a_sane_size_is_read() {
             .replace(&home.path().display().to_string(), "home")
     };
     let large = std::fs::File::create(home.path().join("large")).unwrap();
-    large.set_len(text_file::LARGEST_BYTES + 1).unwrap();
+    large.set_len(crate::text_file::LARGEST_BYTES + 1).unwrap();
     let refusals = [refusal("."), refusal("large"), refusal("nothing")];
     insta::assert_snapshot!(refusals.join("\n"), @r"
     cannot read home/.: it is not a regular file

@@ -101,7 +101,10 @@ fn a_robot_without_a_family_is_two_files_and_may_have_gaits() {
     ]);
     let bare = RobotFiles::read(&home.path().join("bare")).unwrap();
     assert_eq!((&bare.version, &bare.gaits), (&None, &Gaits::None));
-    assert_eq!(bare.defaults().unwrap(), shipped::defaults().unwrap());
+    assert_eq!(
+        bare.defaults().unwrap(),
+        shipped::defaults(DefaultsTable::default()).unwrap()
+    );
 
     let own = RobotFiles::read(&home.path().join("own")).unwrap();
     let defaults = own.defaults().unwrap();

@@ -1,10 +1,12 @@
 //! The tables of a scene file, in the units that their keys state.
 
+use std::f64::consts::PI;
 use std::ops::Range;
 
 use glam::DVec3;
 use serde::Deserialize;
 use toml::Spanned;
+use toml::de::{DeTable, DeValue};
 
 use prone::frames::Point;
 use prone::scene::{
@@ -12,9 +14,6 @@ use prone::scene::{
 };
 
 use crate::exactly::exactly;
-
-/// A number with its place in the file.
-type Number = Spanned<f64>;
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -25,156 +24,143 @@ pub(super) struct SceneFile {
     #[serde(default)]
     floor: FloorTable,
     #[serde(default)]
-    plate: Vec<Spanned<PlateTable>>,
+    plate: Vec<PlateTable>,
     #[serde(default)]
-    panel: Vec<Spanned<PanelTable>>,
+    panel: Vec<PanelTable>,
     #[serde(default)]
-    ramp: Vec<Spanned<RampTable>>,
-    marker: Option<Spanned<MarkerTable>>,
+    ramp: Vec<RampTable>,
+    marker: Option<MarkerTable>,
 }
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct FloorTable {
-    friction_left: Option<Number>,
-    friction_right: Option<Number>,
-    slope_deg: Option<Number>,
-    rough: Option<Spanned<RoughTable>>,
+    friction_left: Option<f64>,
+    friction_right: Option<f64>,
+    slope_deg: Option<f64>,
+    rough: Option<RoughTable>,
 }
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RoughTable {
-    bump_mm: Number,
-    spacing_mm: Number,
-    start_mm: Number,
-    length_mm: Number,
-    width_mm: Option<Number>,
+    bump_mm: f64,
+    spacing_mm: f64,
+    start_mm: f64,
+    length_mm: f64,
+    width_mm: Option<f64>,
     seed: u64,
 }
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct PlateTable {
-    start_mm: Number,
-    length_mm: Number,
-    width_mm: Option<Number>,
-    height_mm: Number,
-    thickness_mm: Option<Number>,
-    #[serde(default)]
-    legs: LegsName,
+    start_mm: f64,
+    length_mm: f64,
+    width_mm: Option<f64>,
+    height_mm: f64,
+    thickness_mm: Option<f64>,
+    #[serde(default = "four_legs", with = "LegsName")]
+    legs: Legs,
 }
 
-#[derive(Debug, Default, Clone, Copy, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Deserialize)]
+#[serde(remote = "Legs", rename_all = "kebab-case")]
 enum LegsName {
-    #[default]
     Four,
     None,
+}
+
+const fn four_legs() -> Legs {
+    Legs::Four
 }
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[expect(clippy::struct_field_names, reason = "keys carry their unit")]
 struct PanelTable {
-    start_mm: Number,
-    width_mm: Option<Number>,
-    lower_edge_mm: Number,
-    upper_edge_mm: Number,
-    thickness_mm: Option<Number>,
+    start_mm: f64,
+    width_mm: Option<f64>,
+    lower_edge_mm: f64,
+    upper_edge_mm: f64,
+    thickness_mm: Option<f64>,
 }
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RampTable {
-    start_mm: Number,
-    length_mm: Number,
-    angle_deg: Number,
-    width_mm: Option<Number>,
+    start_mm: f64,
+    length_mm: f64,
+    angle_deg: f64,
+    width_mm: Option<f64>,
 }
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct MarkerTable {
     #[serde(deserialize_with = "exactly")]
-    position_mm: [Number; 3],
-    radius_mm: Number,
-    facing_deg: Option<Number>,
+    position_mm: [f64; 3],
+    radius_mm: f64,
+    facing_deg: Option<f64>,
 }
 
 impl SceneFile {
     /// Metres and radians; bounds are not checked.
     pub(super) fn scene(&self) -> Scene {
         let floor = &self.floor;
-        let friction = floor
-            .friction_left
-            .as_ref()
-            .zip(floor.friction_right.as_ref());
+        let friction = floor.friction_left.zip(floor.friction_right);
         Scene {
             name: self.name.get_ref().clone(),
             description: self.description.clone(),
             floor: Floor {
-                friction: friction.map(|(left, right)| SideFriction {
-                    left: *left.get_ref(),
-                    right: *right.get_ref(),
-                }),
-                slope: floor.slope_deg.as_ref().map_or(0.0, radians),
-                roughness: floor.rough.as_ref().map(|rough| rough.get_ref().into()),
+                friction: friction.map(|(left, right)| SideFriction { left, right }),
+                slope: floor.slope_deg.map_or(0.0, f64::to_radians),
+                roughness: floor.rough.as_ref().map(Into::into),
             },
-            plates: self
-                .plate
-                .iter()
-                .map(|plate| plate.get_ref().into())
-                .collect(),
-            panels: self
-                .panel
-                .iter()
-                .map(|panel| panel.get_ref().into())
-                .collect(),
-            ramps: self.ramp.iter().map(|ramp| ramp.get_ref().into()).collect(),
-            marker: self.marker.as_ref().map(|marker| marker.get_ref().into()),
+            plates: self.plate.iter().map(Into::into).collect(),
+            panels: self.panel.iter().map(Into::into).collect(),
+            ramps: self.ramp.iter().map(Into::into).collect(),
+            marker: self.marker.as_ref().map(Into::into),
         }
     }
 
-    /// Where friction of one side only is given, and the key of the other.
-    pub(super) fn half_a_friction(&self) -> Option<(Range<usize>, &'static str)> {
-        match (&self.floor.friction_left, &self.floor.friction_right) {
-            (Some(left), None) => Some((left.span(), "friction_right")),
-            (None, Some(right)) => Some((right.span(), "friction_left")),
+    /// Of which side alone friction is given, and of which it is not.
+    pub(super) const fn half_a_friction(&self) -> Option<[Quantity; 2]> {
+        match (self.floor.friction_left, self.floor.friction_right) {
+            (Some(_), None) => Some([Quantity::LeftFriction, Quantity::RightFriction]),
+            (None, Some(_)) => Some([Quantity::RightFriction, Quantity::LeftFriction]),
             _ => None,
         }
     }
+}
 
-    /// Where a number stands; its table where the file is silent, the file's start where there is
-    /// neither.
-    pub(super) fn place(&self, item: Item, quantity: Quantity) -> Range<usize> {
-        let number = match item {
-            Item::Floor => self.floor.number(quantity),
-            Item::Rough => self
-                .floor
-                .rough
-                .as_ref()
-                .and_then(|t| t.get_ref().number(quantity)),
-            Item::Plate(index) => self.plate[index].get_ref().number(quantity),
-            Item::Panel(index) => self.panel[index].get_ref().number(quantity),
-            Item::Ramp(index) => self.ramp[index].get_ref().number(quantity),
-            Item::Marker => self
-                .marker
-                .as_ref()
-                .and_then(|t| t.get_ref().number(quantity)),
-        };
-        if let Some(number) = number {
-            return number.span();
-        }
-        match item {
-            Item::Floor => 0..0,
-            Item::Rough => self.floor.rough.as_ref().map_or(0..0, Spanned::span),
-            Item::Plate(index) => self.plate[index].span(),
-            Item::Panel(index) => self.panel[index].span(),
-            Item::Ramp(index) => self.ramp[index].span(),
-            Item::Marker => self.marker.as_ref().map_or(0..0, Spanned::span),
-        }
-    }
+/// Where a number of a scene stands in its text; its table where that is silent, the beginning where
+/// there is neither.
+pub(super) fn place(text: &str, item: Item, quantity: Quantity) -> Range<usize> {
+    let file = DeTable::parse(text).map(Spanned::into_inner);
+    let part = |table: &str| file.as_ref().ok()?.get(table);
+    let element = |table: &str, index: usize| part(table)?.get_ref().get(index);
+    let table = match item {
+        Item::Floor => part("floor"),
+        Item::Rough => part("floor").and_then(|floor| floor.get_ref().get("rough")),
+        Item::Plate(index) => element("plate", index),
+        Item::Panel(index) => element("panel", index),
+        Item::Ramp(index) => element("ramp", index),
+        Item::Marker => part("marker"),
+    };
+    let number = table.and_then(|table| number(table.get_ref(), quantity));
+    number.or(table).map_or(0..0, Spanned::span)
+}
+
+/// The number of a table.
+fn number<'a, 'i>(table: &'a DeValue<'i>, quantity: Quantity) -> Option<&'a Spanned<DeValue<'i>>> {
+    let coordinate = match quantity {
+        Quantity::X => 0,
+        Quantity::Y => 1,
+        Quantity::Z => 2,
+        _ => return table.get(key(quantity)),
+    };
+    table.get("position_mm")?.get_ref().get(coordinate)
 }
 
 /// The key under which a number of a scene stands.
@@ -201,90 +187,14 @@ pub(super) const fn key(quantity: Quantity) -> &'static str {
     }
 }
 
-impl FloorTable {
-    fn number(&self, quantity: Quantity) -> Option<&Number> {
-        match quantity {
-            Quantity::Slope => self.slope_deg.as_ref(),
-            Quantity::LeftFriction => self.friction_left.as_ref(),
-            Quantity::RightFriction => self.friction_right.as_ref(),
-            _ => None,
-        }
-    }
-}
-
-impl RoughTable {
-    fn number(&self, quantity: Quantity) -> Option<&Number> {
-        match quantity {
-            Quantity::BumpHeight => Some(&self.bump_mm),
-            Quantity::Spacing => Some(&self.spacing_mm),
-            Quantity::Start => Some(&self.start_mm),
-            Quantity::Length => Some(&self.length_mm),
-            Quantity::Width => self.width_mm.as_ref(),
-            _ => None,
-        }
-    }
-}
-
-impl PlateTable {
-    fn number(&self, quantity: Quantity) -> Option<&Number> {
-        match quantity {
-            Quantity::Start => Some(&self.start_mm),
-            Quantity::Length => Some(&self.length_mm),
-            Quantity::Width => self.width_mm.as_ref(),
-            Quantity::Height => Some(&self.height_mm),
-            Quantity::Thickness => self.thickness_mm.as_ref(),
-            _ => None,
-        }
-    }
-}
-
-impl PanelTable {
-    fn number(&self, quantity: Quantity) -> Option<&Number> {
-        match quantity {
-            Quantity::Start => Some(&self.start_mm),
-            Quantity::Width => self.width_mm.as_ref(),
-            Quantity::LowerEdge => Some(&self.lower_edge_mm),
-            Quantity::UpperEdge => Some(&self.upper_edge_mm),
-            Quantity::Thickness => self.thickness_mm.as_ref(),
-            _ => None,
-        }
-    }
-}
-
-impl RampTable {
-    fn number(&self, quantity: Quantity) -> Option<&Number> {
-        match quantity {
-            Quantity::Start => Some(&self.start_mm),
-            Quantity::Length => Some(&self.length_mm),
-            Quantity::Angle => Some(&self.angle_deg),
-            Quantity::Width => self.width_mm.as_ref(),
-            _ => None,
-        }
-    }
-}
-
-impl MarkerTable {
-    fn number(&self, quantity: Quantity) -> Option<&Number> {
-        let [x, y, z] = &self.position_mm;
-        match quantity {
-            Quantity::X => Some(x),
-            Quantity::Y => Some(y),
-            Quantity::Z => Some(z),
-            Quantity::Radius => Some(&self.radius_mm),
-            Quantity::Facing => self.facing_deg.as_ref(),
-            _ => None,
-        }
-    }
-}
-
 impl From<&RoughTable> for Roughness {
     fn from(table: &RoughTable) -> Self {
         Self {
-            height: metres(&table.bump_mm),
-            spacing: metres(&table.spacing_mm),
-            from_x: metres(&table.start_mm),
-            length: metres(&table.length_mm),
-            width: table.width_mm.as_ref().map_or(Self::WIDTH, metres),
+            height: metres(table.bump_mm),
+            spacing: metres(table.spacing_mm),
+            from_x: metres(table.start_mm),
+            length: metres(table.length_mm),
+            width: table.width_mm.map_or(Self::WIDTH, metres),
             seed: table.seed,
         }
     }
@@ -293,15 +203,12 @@ impl From<&RoughTable> for Roughness {
 impl From<&PlateTable> for Plate {
     fn from(table: &PlateTable) -> Self {
         Self {
-            start: metres(&table.start_mm),
-            length: metres(&table.length_mm),
-            width: table.width_mm.as_ref().map_or(Self::WIDTH, metres),
-            height: metres(&table.height_mm),
-            thickness: table.thickness_mm.as_ref().map_or(Self::THICKNESS, metres),
-            legs: match table.legs {
-                LegsName::Four => Legs::Four,
-                LegsName::None => Legs::None,
-            },
+            start: metres(table.start_mm),
+            length: metres(table.length_mm),
+            width: table.width_mm.map_or(Self::WIDTH, metres),
+            height: metres(table.height_mm),
+            thickness: table.thickness_mm.map_or(Self::THICKNESS, metres),
+            legs: table.legs,
         }
     }
 }
@@ -309,11 +216,11 @@ impl From<&PlateTable> for Plate {
 impl From<&PanelTable> for Panel {
     fn from(table: &PanelTable) -> Self {
         Self {
-            start: metres(&table.start_mm),
-            width: table.width_mm.as_ref().map_or(Self::WIDTH, metres),
-            lower_edge: metres(&table.lower_edge_mm),
-            upper_edge: metres(&table.upper_edge_mm),
-            thickness: table.thickness_mm.as_ref().map_or(Self::THICKNESS, metres),
+            start: metres(table.start_mm),
+            width: table.width_mm.map_or(Self::WIDTH, metres),
+            lower_edge: metres(table.lower_edge_mm),
+            upper_edge: metres(table.upper_edge_mm),
+            thickness: table.thickness_mm.map_or(Self::THICKNESS, metres),
         }
     }
 }
@@ -321,33 +228,26 @@ impl From<&PanelTable> for Panel {
 impl From<&RampTable> for Ramp {
     fn from(table: &RampTable) -> Self {
         Self {
-            start: metres(&table.start_mm),
-            length: metres(&table.length_mm),
-            angle: radians(&table.angle_deg),
-            width: table.width_mm.as_ref().map_or(Self::WIDTH, metres),
+            start: metres(table.start_mm),
+            length: metres(table.length_mm),
+            angle: table.angle_deg.to_radians(),
+            width: table.width_mm.map_or(Self::WIDTH, metres),
         }
     }
 }
 
 impl From<&MarkerTable> for Marker {
     fn from(table: &MarkerTable) -> Self {
-        let [x, y, z] = &table.position_mm;
+        let [x, y, z] = table.position_mm;
         Self {
             position: Point::new(DVec3::new(metres(x), metres(y), metres(z))),
-            radius: metres(&table.radius_mm),
+            radius: metres(table.radius_mm),
             // Towards the robot that starts.
-            facing: table
-                .facing_deg
-                .as_ref()
-                .map_or(std::f64::consts::PI, radians),
+            facing: table.facing_deg.map_or(PI, f64::to_radians),
         }
     }
 }
 
-fn metres(millimetres: &Number) -> f64 {
-    millimetres.get_ref() / 1000.0
-}
-
-fn radians(degrees: &Number) -> f64 {
-    degrees.get_ref().to_radians()
+fn metres(millimetres: f64) -> f64 {
+    millimetres / 1000.0
 }

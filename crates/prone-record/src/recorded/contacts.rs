@@ -7,6 +7,9 @@ use glam::DVec3;
 
 use prone::frames::Point;
 
+use crate::record_columns::{BODY, FORCE, PLACE, TIME, WITH};
+use crate::record_info::Extent;
+
 use super::error::text;
 use super::table::{Cells, Table, same_instant};
 use super::{
@@ -29,31 +32,31 @@ pub(super) struct Contacts {
 /// Reads the contacts of rows that have so many of them; `rows_cut` says where those break off.
 pub(super) fn read(
     folder: &Path,
+    extent: &Extent,
     bodies: &[RecordedBody],
     rows: &[RecordedRow],
     counts: &[usize],
     rows_cut: Option<&Cut>,
 ) -> Result<Contacts, ReadError> {
     if !folder.join(CONTACTS_FILE).exists() {
-        let cut = Cut {
+        let cut = Some(Cut {
             part: Part::Contacts,
             line: 1,
             damage: Damage::NoFile,
-        };
+        });
         return Ok(Contacts {
-            points: Vec::new(),
-            rows: 0,
-            cut: Some(cut),
+            cut,
+            ..Contacts::default()
         });
     }
     let table = Table::new(Part::Contacts, &text(folder, CONTACTS_FILE)?);
     let places = Places {
-        names: table.columns(folder, ["body", "with"])?,
-        numbers: table.columns(
-            folder,
-            ["time_s", "x_mm", "y_mm", "z_mm", "fx_n", "fy_n", "fz_n"],
-        )?,
+        names: table.columns(folder, [BODY, WITH])?,
+        time: table.columns(folder, [TIME])?,
+        place: table.columns(folder, PLACE)?,
+        force: table.columns(folder, FORCE)?,
     };
+    table.check_header(folder, extent)?;
     let mut points = Vec::new();
     let mut names: BTreeSet<String> = BTreeSet::new();
     let mut course = Course::new(rows, counts);
@@ -89,7 +92,9 @@ pub(super) fn read(
 /// Where the columns are.
 struct Places {
     names: [usize; 2],
-    numbers: [usize; 7],
+    time: [usize; 1],
+    place: [usize; 3],
+    force: [usize; 3],
 }
 
 impl Places {
@@ -99,7 +104,9 @@ impl Places {
         bodies: &[RecordedBody],
     ) -> Result<RecordedContact, Damage> {
         let [body, with] = self.names;
-        let [time_s, x, y, z, fx, fy, fz] = cells.numbers(self.numbers)?;
+        let [time_s] = cells.numbers(self.time)?;
+        let millimetres = DVec3::from_array(cells.numbers(self.place)?);
+        let force_n = DVec3::from_array(cells.numbers(self.force)?);
         let place = bodies
             .iter()
             .position(|known| known.name == cells.text(body));
@@ -107,8 +114,8 @@ impl Places {
             time_s,
             body: place.ok_or_else(|| cells.wrong(body))?,
             with: cells.text(with).to_owned(),
-            at: Point::new(DVec3::new(x, y, z) / 1e3),
-            force_n: DVec3::new(fx, fy, fz),
+            at: Point::new(millimetres / 1e3),
+            force_n,
         })
     }
 }

@@ -1,5 +1,6 @@
 //! What is missing of a table, where, and by what that is known.
 
+use crate::broken_table::Break;
 use crate::record_info::Part;
 
 /// Where a table can be used no further.
@@ -20,17 +21,9 @@ pub enum Damage {
     /// There is no table at all.
     #[error("there is no such file")]
     NoFile,
-    /// The file ends in the middle of the line, of which digits may be missing.
-    #[error("the file ends within the line")]
-    Unfinished,
-    /// More or fewer cells than the header.
-    #[error("{found} cells, where the header has {expected}")]
-    Cells {
-        /// In the line.
-        found: usize,
-        /// In the header.
-        expected: usize,
-    },
+    /// The line is not whole.
+    #[error(transparent)]
+    Broken(#[from] Break),
     /// Not a number that a record can have.
     #[error("{column} is {text:?}, which is no value of a record")]
     Value {
@@ -38,6 +31,16 @@ pub enum Damage {
         column: String,
         /// What stands there, its beginning.
         text: String,
+    },
+    /// A value that no row can have.
+    #[error("{column} is {text:?}, and must be {bound}")]
+    Outside {
+        /// Name of the column.
+        column: String,
+        /// What stands there, its beginning.
+        text: String,
+        /// What may stand there.
+        bound: String,
     },
     /// A row is missing, or is twice there.
     #[error("{found} s, where the row of {due:.4} s is due")]

@@ -4,9 +4,9 @@ use std::fs;
 use std::path::Path;
 
 use prone_files::compiled_robot::CompiledRobotError;
+use prone_files::text_file;
 
 use crate::head::HeadError;
-use crate::record_info::FORMAT;
 
 /// Why a folder cannot be read as a record.
 #[derive(Debug, thiserror::Error)]
@@ -38,46 +38,18 @@ pub enum ReadError {
     /// There is no result of this version of the program.
     #[error(transparent)]
     Head(#[from] HeadError),
-    /// The record has another format than this build reads.
-    #[error(
-        "{file}: the record has format {found}, written by prone {version} of commit {commit}; this \
-         build of prone reads format {FORMAT}: record it anew"
-    )]
-    Format {
-        /// Path of `run.json`.
-        file: String,
-        /// Its format; records that state none have format 1.
-        found: u64,
-        /// Version of the program that wrote it.
-        version: String,
-        /// Commit that the program was built from.
-        commit: String,
-    },
     /// The compiled robot cannot be used.
     #[error(transparent)]
     Robot(#[from] CompiledRobotError),
     /// A file cannot be read.
-    #[error("cannot read {file}: {source}")]
-    File {
-        /// The file's path.
-        file: String,
-        /// Why.
-        source: std::io::Error,
-    },
-    /// A JSON file is not what it should be.
-    #[error("{file}: {source}")]
-    Json {
-        /// The file's path.
-        file: String,
-        /// Where and why.
-        source: serde_json::Error,
-    },
-    /// `run.json` or the model contradicts itself or the tables.
+    #[error(transparent)]
+    File(#[from] text_file::ReadError),
+    /// A file is not what it should be, or contradicts itself or another one.
     #[error("{file}: {problem}")]
-    Model {
+    Content {
         /// The file's path.
         file: String,
-        /// What is wrong.
+        /// What is wrong, and where.
         problem: String,
     },
     /// A table lacks a column.
@@ -107,9 +79,6 @@ pub(super) fn text(folder: &Path, file: &'static str) -> Result<String, ReadErro
             folder: folder.display().to_string(),
             reason: format!("it has no {file}"),
         }),
-        Err(source) => Err(ReadError::File {
-            file: path.display().to_string(),
-            source,
-        }),
+        Err(source) => Err(text_file::ReadError { path, source }.into()),
     }
 }

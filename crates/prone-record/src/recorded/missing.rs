@@ -25,10 +25,17 @@ impl Recorded {
 
     /// Whether every instant has the angle of every hinge of the model, so that it can be replayed.
     pub fn has_all_angles(&self) -> bool {
+        self.missing_angle().is_none()
+    }
+
+    /// The first instant, s, that lacks the angle of a hinge of the model, and the hinge's joint.
+    pub fn missing_angle(&self) -> Option<(&str, f64)> {
         let hinges = || self.bodies.iter().filter_map(|body| body.hinge);
-        self.rows
-            .iter()
-            .all(|row| hinges().all(|hinge| !row.angles.as_slice()[hinge.joint].is_nan()))
+        self.rows.iter().find_map(|row| {
+            let angles = row.angles.as_slice();
+            let missing = hinges().find(|hinge| angles[hinge.joint].is_nan())?;
+            Some((self.joints[missing.joint].as_str(), row.time_s))
+        })
     }
 
     fn gaps(&self, what: &str, recorded: impl Fn(&RecordedRow) -> bool) -> Option<String> {

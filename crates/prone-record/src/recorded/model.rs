@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use glam::{DQuat, DVec3};
-use serde::Deserialize;
+use serde::{Deserialize, Deserializer};
 use serde_json::Value;
 
 use prone::frames::{Link, Point, Transform};
@@ -36,28 +36,34 @@ pub struct RecordedBody {
 }
 
 /// How hard a body is to turn.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 pub struct Inertia {
     /// Moments about the principal axes, through the centre of mass, kg·m².
+    #[serde(deserialize_with = "vector")]
     pub principal: DVec3,
     /// From the principal axes to the body's own.
+    #[serde(rename = "quaternion", deserialize_with = "real_first")]
     pub rotation: DQuat,
 }
 
 /// A shape of the robot, whether it collides or is only seen.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct RecordedShape {
     /// The body that it is fixed to, by its place among the bodies.
     pub body: usize,
     /// `sphere`, `capsule`, `cylinder`, `ellipsoid` or `box`; long axis along z.
+    #[serde(rename = "type")]
     pub kind: String,
     /// Radius and half-length along z, half-axes, or half-edges, as many as the kind has, m.
     pub size: Vec<f64>,
     /// Its middle in the body, m.
+    #[serde(deserialize_with = "vector")]
     pub position: DVec3,
     /// Its turn in the body.
+    #[serde(rename = "quaternion", deserialize_with = "real_first")]
     pub rotation: DQuat,
     /// Red, green, blue, opacity, 0 to 1.
+    #[serde(rename = "rgba")]
     pub colour: [f64; 4],
     /// The engine's group: 0 to 2 are drawn.
     pub group: i32,
@@ -87,46 +93,31 @@ pub(super) struct Model {
 struct Parts {
     bodies: Vec<BodyEntry>,
     obstacles: Vec<ObstacleEntry>,
-    shapes: Vec<ShapeEntry>,
+    shapes: Vec<RecordedShape>,
     // The page draws it; here it only has to be there.
     #[serde(rename = "chain")]
     _chain: Value,
 }
 
 #[derive(Deserialize)]
-struct ShapeEntry {
-    body: usize,
-    #[serde(rename = "type")]
-    kind: String,
-    size: Vec<f64>,
-    position: [f64; 3],
-    quaternion: [f64; 4],
-    rgba: [f64; 4],
-    group: i32,
-    collides: bool,
-}
-
-#[derive(Deserialize)]
-struct InertiaEntry {
-    principal: [f64; 3],
-    quaternion: [f64; 4],
-}
-
-#[derive(Deserialize)]
 struct BodyEntry {
     name: String,
     parent: Option<usize>,
-    position: [f64; 3],
-    quaternion: [f64; 4],
+    #[serde(deserialize_with = "vector")]
+    position: DVec3,
+    #[serde(deserialize_with = "real_first")]
+    quaternion: DQuat,
     joint: Option<JointEntry>,
-    inertia: Option<InertiaEntry>,
+    inertia: Option<Inertia>,
 }
 
 #[derive(Deserialize)]
 struct JointEntry {
     name: String,
-    axis: [f64; 3],
-    anchor: [f64; 3],
+    #[serde(deserialize_with = "vector")]
+    axis: DVec3,
+    #[serde(deserialize_with = "vector")]
+    anchor: DVec3,
 }
 
 #[derive(Deserialize)]
@@ -139,10 +130,7 @@ struct ObstacleEntry {
 impl Model {
     pub(super) fn read(folder: &Path) -> Result<Self, ReadError> {
         let file = folder.join(MODEL_FILE).display().to_string();
-        let json = |source| ReadError::Json {
-            file: file.clone(),
-            source,
-        };
+        let json = |error: serde_json::Error| wrong(&file, error.to_string());
         let content = text(folder, MODEL_FILE)?;
         let parts: Parts = serde_json::from_str(&content).map_err(json)?;
         let text = serde_json::from_str(&content).map_err(json)?;
@@ -152,20 +140,13 @@ impl Model {
     /// The bodies, for the joints of the rows.
     pub(super) fn bodies(&self, joints: &[String]) -> Result<Vec<RecordedBody>, ReadError> {
         if self.parts.bodies.len() > MOST_BODIES {
-            return Err(ReadError::Model {
-                file: self.file.clone(),
-                problem: format!("more than {MOST_BODIES} bodies"),
-            });
+            return Err(wrong(&self.file, format!("more than {MOST_BODIES} bodies")));
         }
         let bodies = self.parts.bodies.iter().enumerate();
-        let bodies = bodies.map(|(index, body)| {
-            body.read(index, joints)
-                .map_err(|problem| ReadError::Model {
-                    file: self.file.clone(),
-                    problem,
-                })
-        });
-        bodies.collect()
+        let bodies = bodies.map(|(index, body)| body.read(index, joints));
+        bodies
+            .collect::<Result<_, _>>()
+            .map_err(|problem| wrong(&self.file, problem))
     }
 
     /// Names of the joints of the bodies, in the order of the bodies.
@@ -176,27 +157,15 @@ impl Model {
     }
 
     /// The robot's shapes, each fixed to one of the bodies.
-    pub(super) fn shapes(&self) -> Result<Vec<RecordedShape>, ReadError> {
-        let bodies = self.parts.bodies.len();
-        let shapes = self.parts.shapes.iter().map(|shape| {
-            if shape.body >= bodies {
-                return Err(ReadError::Model {
-                    file: self.file.clone(),
-                    problem: format!("a shape is fixed to body {} of {bodies}", shape.body),
-                });
+    pub(super) fn shapes(self) -> Result<Vec<RecordedShape>, ReadError> {
+        let (bodies, shapes) = (self.parts.bodies.len(), self.parts.shapes);
+        match shapes.iter().find(|shape| shape.body >= bodies) {
+            None => Ok(shapes),
+            Some(shape) => {
+                let problem = format!("a shape is fixed to body {} of {bodies}", shape.body);
+                Err(wrong(&self.file, problem))
             }
-            Ok(RecordedShape {
-                body: shape.body,
-                kind: shape.kind.clone(),
-                size: shape.size.clone(),
-                position: DVec3::from_array(shape.position),
-                rotation: real_first(shape.quaternion),
-                colour: shape.rgba,
-                group: shape.group,
-                collides: shape.collides,
-            })
-        });
-        shapes.collect()
+        }
     }
 
     pub(super) fn plate(&self) -> Option<(f64, f64)> {
@@ -214,8 +183,7 @@ impl BodyEntry {
         if self.parent.is_none() != (index == 0) || self.parent.is_some_and(|it| it >= index) {
             return Err(format!("body {name} does not follow its parent"));
         }
-        let turn = real_first(self.quaternion);
-        if (turn.length() - 1.0).abs() > UNIT {
+        if (self.quaternion.length() - 1.0).abs() > UNIT {
             return Err(format!(
                 "the quaternion of body {name} has not the length 1"
             ));
@@ -224,32 +192,38 @@ impl BodyEntry {
             None => None,
             Some(joint) => {
                 let place = joints.iter().position(|known| *known == joint.name);
-                let axis = DVec3::from_array(joint.axis);
-                if (axis.length() - 1.0).abs() > UNIT {
+                if (joint.axis.length() - 1.0).abs() > UNIT {
                     return Err(format!("the axis of {} has not the length 1", joint.name));
                 }
                 Some(Hinge {
                     joint: place
                         .ok_or_else(|| format!("{ROWS_FILE} has no joint {}", joint.name))?,
-                    axis,
-                    anchor: Point::new(DVec3::from_array(joint.anchor)),
+                    axis: joint.axis,
+                    anchor: Point::new(joint.anchor),
                 })
             }
         };
         Ok(RecordedBody {
             name: name.clone(),
             parent: self.parent,
-            parent_from_body: Transform::new(turn, DVec3::from_array(self.position)),
+            parent_from_body: Transform::new(self.quaternion, self.position),
             hinge,
-            inertia: self.inertia.as_ref().map(|inertia| Inertia {
-                principal: DVec3::from_array(inertia.principal),
-                rotation: real_first(inertia.quaternion),
-            }),
+            inertia: self.inertia,
         })
     }
 }
 
+fn wrong(file: &str, problem: String) -> ReadError {
+    let file = file.to_owned();
+    ReadError::Content { file, problem }
+}
+
+fn vector<'de, D: Deserializer<'de>>(deserializer: D) -> Result<DVec3, D::Error> {
+    <[f64; 3]>::deserialize(deserializer).map(DVec3::from_array)
+}
+
 /// A quaternion whose real part stands first.
-const fn real_first([w, x, y, z]: [f64; 4]) -> DQuat {
-    DQuat::from_xyzw(x, y, z, w)
+fn real_first<'de, D: Deserializer<'de>>(deserializer: D) -> Result<DQuat, D::Error> {
+    let [w, x, y, z] = Deserialize::deserialize(deserializer)?;
+    Ok(DQuat::from_xyzw(x, y, z, w))
 }

@@ -40,7 +40,7 @@ pub fn compiled_robot(folder: &Path, run: &RecordInfo) -> Result<CompiledRobot, 
     let file = folder.join(ROBOT_FILE).display().to_string();
     let compiled = CompiledRobot::parse(&file, &text(folder, ROBOT_FILE)?)?;
     if compiled.sources_hash() != run.robot.sha256 {
-        return Err(ReadError::Model {
+        return Err(ReadError::Content {
             file,
             problem: format!(
                 "it was compiled from files with the hash {}, those of {} have {}",

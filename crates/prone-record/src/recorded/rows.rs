@@ -5,30 +5,15 @@ use std::path::Path;
 use glam::{DQuat, DVec3};
 
 use prone::frames::{Ground, Root, Transform};
-use prone::robot::{ContactGroup, JointAngles};
+use prone::robot::JointAngles;
 
 use super::table::{Cells, Table, same_instant};
-use super::{Cut, Damage, Part, ROWS_FILE, ReadError, RecordedRow};
+use super::{Cut, Damage, ReadError, RecordedRow};
+use crate::record_columns::{
+    ANGLE_END, COMMAND_END, CONTACTS, CYCLE, PHASE, PLACE, STAGE, STAGES, TIME, TORQUE_END, TURN,
+    grounds,
+};
 use crate::record_info::Extent;
-
-/// End of the column of a joint's command; the joint's name is before it.
-const COMMAND_END: &str = "_cmd_rad";
-/// End of the column of a joint's angle.
-const ANGLE_END: &str = "_rad";
-/// End of the column of a joint's torque.
-const TORQUE_END: &str = "_nm";
-
-const TIME: &str = "time_s";
-const CYCLE: &str = "cycle";
-
-/// The only column that holds no numbers.
-const STAGE: &str = "stage";
-
-/// The column of how many contacts an instant has.
-pub(super) const CONTACTS: &str = "contacts";
-
-/// Columns that say which row it is: they are no channels.
-const LABELS: [&str; 4] = [TIME, CYCLE, STAGE, "s"];
 
 /// How far the length of a recorded quaternion may be from one: it has seven decimals.
 const UNIT: f64 = 1e-4;
@@ -49,6 +34,7 @@ struct Places {
     time: usize,
     cycle: Option<usize>,
     stage: Option<usize>,
+    phase: Option<usize>,
     contacts: Option<usize>,
     /// x, y, z; w, x, y, z of the root's quaternion.
     root: Option<[usize; 7]>,
@@ -59,34 +45,41 @@ struct Places {
 }
 
 impl Places {
-    fn of(table: &Table, joints: &[String], folder: &Path) -> Result<Self, ReadError> {
+    fn find(table: &Table, joints: &[String], folder: &Path) -> Result<Self, ReadError> {
         let of_joints = |end: &str| {
             let names = joints.iter().map(|joint| format!("{joint}{end}"));
             names.map(|name| table.find(&name)).collect()
         };
-        let root = ["x_mm", "y_mm", "z_mm", "qw", "qx", "qy", "qz"].map(|name| table.find(name));
+        let root = PLACE.iter().chain(&TURN).map(|name| table.find(name));
+        let root: Option<Vec<usize>> = root.collect();
         Ok(Self {
             time: table.column(folder, TIME)?,
             cycle: table.find(CYCLE),
             stage: table.find(STAGE),
+            phase: table.find(PHASE),
             contacts: table.find(CONTACTS),
-            root: match root {
-                [
-                    Some(x),
-                    Some(y),
-                    Some(z),
-                    Some(qw),
-                    Some(qx),
-                    Some(qy),
-                    Some(qz),
-                ] => Some([x, y, z, qw, qx, qy, qz]),
-                _ => None,
-            },
-            ground: ContactGroup::ALL.map(|group| table.find(&format!("{}_n", group.name()))),
+            root: root.and_then(|columns| columns.try_into().ok()),
+            ground: grounds().map(|name| table.find(&name)),
             commands: of_joints(COMMAND_END),
             angles: of_joints(ANGLE_END),
             torques: of_joints(TORQUE_END),
         })
+    }
+
+    /// Name of the stage; empty where it was not recorded.
+    fn stage<'a>(&self, cells: Cells<'a>) -> Result<&'a str, Damage> {
+        if let Some(column) = self.phase
+            && let Some(phase) = cells.optional(column)?
+            && !(0.0..=1.0).contains(&phase)
+        {
+            return Err(cells.outside(column, "0 to 1".to_owned()));
+        }
+        match self.stage {
+            Some(column) if !["", STAGES[0], STAGES[1]].contains(&cells.text(column)) => {
+                Err(cells.outside(column, STAGES.join(" or ")))
+            }
+            stage => Ok(stage.map_or("", |column| cells.text(column))),
+        }
     }
 
     fn row(&self, cells: Cells<'_>) -> Result<RecordedRow, Damage> {
@@ -102,7 +95,7 @@ impl Places {
         let [time_s] = cells.numbers([self.time])?;
         Ok(RecordedRow {
             time_s,
-            cycle: self.cycle.map_or(Ok(1), |column| cells.count(column))?,
+            cycle: self.cycle.map_or(Ok(1), |column| cells.count(column, 1))?,
             ground_from_root: self.pose(cells)?,
             command: posture(&self.commands)?,
             angles: posture(&self.angles)?,
@@ -149,27 +142,10 @@ fn joints(table: &Table) -> Vec<String> {
     joints
 }
 
-/// Checks that a table has what `run.json` lists, and nothing else.
-fn check_header(table: &Table, extent: &Extent, folder: &Path) -> Result<(), ReadError> {
-    for column in extent.columns(Part::Rows) {
-        table.column(folder, column)?;
-    }
-    let mut strangers = table.header().filter(|column| {
-        !LABELS.contains(column) && extent.columns(Part::Rows).all(|known| known != *column)
-    });
-    match strangers.next() {
-        None => Ok(()),
-        Some(column) => Err(ReadError::Model {
-            file: folder.join(ROWS_FILE).display().to_string(),
-            problem: format!("record.channels of run.json does not list the column {column}"),
-        }),
-    }
-}
-
 impl Rows {
     /// The rows of a table, up to where one is damaged or missing. `model_joints` that have no
     /// column follow those that have.
-    pub(super) fn of(
+    pub(super) fn read(
         table: &Table,
         extent: &Extent,
         model_joints: &[String],
@@ -181,8 +157,8 @@ impl Rows {
                 joints.push(joint.clone());
             }
         }
-        let places = Places::of(table, &joints, folder)?;
-        check_header(table, extent, folder)?;
+        let places = Places::find(table, &joints, folder)?;
+        table.check_header(folder, extent)?;
         let numbers: Vec<(usize, &str)> = table
             .header()
             .enumerate()
@@ -206,19 +182,19 @@ impl Rows {
                 return Err(Damage::ManyRows { expected });
             }
             let row = places.row(cells)?;
+            let stage = places.stage(cells)?;
             check_time(row.time_s, extent.row_step_s, index, found.instants.last())?;
             let values: Vec<Option<f64>> = numbers
                 .iter()
                 .map(|&(column, _)| cells.optional(column))
                 .collect::<Result<_, _>>()?;
             if let Some(column) = places.contacts {
-                found.contact_counts.push(cells.count(column)?);
+                found.contact_counts.push(cells.count(column, 0)?);
             }
             found.instants.push(row);
             for ((_, column), value) in found.columns.iter_mut().zip(values) {
                 column.push(value.unwrap_or(f64::NAN));
             }
-            let stage = places.stage.map_or("", |column| cells.text(column));
             if !stage.is_empty() && found.stages.last().is_none_or(|(_, last)| last != stage) {
                 found.stages.push((index, stage.to_owned()));
             }

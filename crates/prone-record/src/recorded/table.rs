@@ -5,13 +5,18 @@ use std::path::Path;
 use csv::StringRecord;
 
 use super::{Cut, Damage, Part, ReadError};
-use crate::broken_table::{Break, BrokenTable};
+use crate::broken_table::BrokenTable;
+use crate::record_columns::labels;
+use crate::record_info::Extent;
 
 /// No quantity of a record comes near: not in mm, N, N·m, degrees or seconds.
 const LARGEST: f64 = 1e9;
 
 /// Two instants that differ by less are one, s: tables have four decimals of a second.
 const SAME_INSTANT: f64 = 0.6e-4;
+
+/// The largest count: of cycles, and of contacts at one instant.
+const MOST: usize = 65_535;
 
 /// Of what stands in a cell, as many letters are shown.
 const SHOWN: usize = 30;
@@ -35,15 +40,35 @@ impl Table {
         self.content.header().iter()
     }
 
+    /// Checks that there is what `run.json` lists, nothing else, and nothing twice.
+    pub(super) fn check_header(&self, folder: &Path, extent: &Extent) -> Result<(), ReadError> {
+        for column in extent.columns(self.part) {
+            self.column(folder, column)?;
+        }
+        let labels = labels(self.part);
+        for (place, column) in self.header().enumerate() {
+            let problem = if self.find(column) != Some(place) {
+                format!("the column {column} is there twice")
+            } else if labels.contains(&column) || extent.columns(self.part).any(|it| it == column) {
+                continue;
+            } else {
+                format!("record.channels of run.json does not list the column {column}")
+            };
+            let file = folder.join(self.part.file()).display().to_string();
+            return Err(ReadError::Content { file, problem });
+        }
+        Ok(())
+    }
+
     /// Where some columns are.
     pub(super) fn columns<const N: usize>(
         &self,
         folder: &Path,
-        names: [impl AsRef<str>; N],
+        names: [&str; N],
     ) -> Result<[usize; N], ReadError> {
         let mut places = [0; N];
         for (place, name) in places.iter_mut().zip(names) {
-            *place = self.column(folder, name.as_ref())?;
+            *place = self.column(folder, name)?;
         }
         Ok(places)
     }
@@ -73,11 +98,7 @@ impl Table {
             }
         }
         let (line, broken) = self.content.broken()?;
-        let damage = match broken {
-            Break::Unfinished => Damage::Unfinished,
-            Break::Cells { found, expected } => Damage::Cells { found, expected },
-        };
-        Some(self.cut(line, damage))
+        Some(self.cut(line, broken.into()))
     }
 
     /// Damage in the line after the last one.
@@ -101,9 +122,9 @@ pub(super) struct Cells<'a> {
     cells: &'a StringRecord,
 }
 
-impl Cells<'_> {
+impl<'a> Cells<'a> {
     /// What stands in a column.
-    pub(super) fn text(&self, column: usize) -> &str {
+    pub(super) fn text(&self, column: usize) -> &'a str {
         &self.cells[column]
     }
 
@@ -135,18 +156,34 @@ impl Cells<'_> {
         Ok(numbers)
     }
 
-    /// A count; at most 65,535.
-    pub(super) fn count(&self, column: usize) -> Result<usize, Damage> {
-        let count: Option<u16> = self.text(column).parse().ok();
-        count.map(usize::from).ok_or_else(|| self.wrong(column))
+    /// A count from `least` on.
+    pub(super) fn count(&self, column: usize, least: usize) -> Result<usize, Damage> {
+        let count = self.text(column).parse().ok();
+        count
+            .filter(|count| (least..=MOST).contains(count))
+            .ok_or_else(|| self.outside(column, format!("{least} to {MOST}")))
     }
 
     /// Says that there is no value of a record in a column.
     pub(super) fn wrong(&self, column: usize) -> Damage {
-        Damage::Value {
-            column: self.header[column].to_owned(),
-            text: self.text(column).chars().take(SHOWN).collect(),
+        let (column, text) = self.said(column);
+        Damage::Value { column, text }
+    }
+
+    /// Says within what the value of a column has to be.
+    pub(super) fn outside(&self, column: usize, bound: String) -> Damage {
+        let (column, text) = self.said(column);
+        Damage::Outside {
+            column,
+            text,
+            bound,
         }
+    }
+
+    /// Name of a column, and the beginning of what stands there.
+    fn said(&self, column: usize) -> (String, String) {
+        let text = self.text(column).chars().take(SHOWN);
+        (self.header[column].to_owned(), text.collect())
     }
 }
 

@@ -1,6 +1,6 @@
 use super::sample::{CONTACTS, MODEL, ROWS, folder, run_json};
 use super::*;
-use crate::record_info::Options;
+use crate::record_info::{Kind, Options};
 
 fn read(changes: &[(&str, Option<&str>)]) -> Result<Recorded, ReadError> {
     Recorded::read(folder(changes).path())
@@ -122,7 +122,28 @@ fn rows_end_where_they_are_damaged() {
         ),
         (
             with("0.7,1,2,3,4,1", "0.7,1,2,3,4,70000"),
-            "contacts is \"70000\", which is no value of a record",
+            "contacts is \"70000\", and must be 0 to 65535",
+        ),
+        // A count is never unknown: without it nobody knows whether contacts.csv is whole.
+        (
+            with("0.7,1,2,3,4,1", "0.7,1,2,3,4,"),
+            "contacts is \"\", and must be 0 to 65535",
+        ),
+        (
+            with("0.0600,1,", "0.0600,,"),
+            "cycle is \"\", and must be 1 to 65535",
+        ),
+        (
+            with("0.0600,1,", "0.0600,0,"),
+            "cycle is \"0\", and must be 1 to 65535",
+        ),
+        (
+            with("recovery,,", "swimming,,"),
+            "stage is \"swimming\", and must be pull or recovery",
+        ),
+        (
+            with("recovery,,", "pull,1.01,"),
+            "s is \"1.01\", and must be 0 to 1",
         ),
     ];
     for (text, damage) in cases {
@@ -312,27 +333,173 @@ fn a_record_is_read_as_it_is_written() {
         "solver_iterations": 100, "solver_tolerance": 1e-8, "cone": "elliptic",
         "gravity_m_s2": [0.0, 0.0, -9.81], "servo_gains_nms_rad": {"A": 1.0},
         "effort_limits_nm": {"A": 2.0}}"#;
-    let text = sample::run_json().replace(sample::ORIGIN, simulated);
-    let info: RecordInfo = serde_json::from_str(&text).unwrap();
+    let info_of = |text: &str| RecordInfo::read(folder(&[(RUN_FILE, Some(text))]).path()).unwrap();
+    let info = info_of(&run_json().replace(sample::ORIGIN, simulated));
     let written = serde_json::to_value(&info).unwrap();
     assert_eq!(written["regime"]["name"], "locomotion");
     assert_eq!(written["origin"]["kind"], "simulated");
     assert_eq!(written["origin"]["time_step_s"], 0.0025);
     assert_eq!(written["options"]["until_past_mm"], serde_json::Value::Null);
-    let again: RecordInfo = serde_json::from_value(written).unwrap();
-    assert_eq!(again, info);
+    assert_eq!(info_of(&written.to_string()), info);
+}
+
+/// What a record holds is said by its command, not by a key that happens to be there.
+#[test]
+fn a_pull_is_known_by_its_command() {
+    let crawl = r#"{"time_scale": 1.0, "scene_text": null, "steering": "none"}"#;
+    let pull =
+        r#"{"time_scale": 1.0, "scene_text": null, "duration_s": 5.0, "start_posture": "p"}"#;
+    let read = |command: Command, options: &str| {
+        let run = run_json().replace("crawl run", command.name());
+        let home = folder(&[(RUN_FILE, Some(&run.replace(crawl, options)))]);
+        let read = RecordInfo::read(home.path());
+        read.map_err(|error| without_place(&error.to_string(), home.path()))
+    };
+    for command in [Command::Pull, Command::ReproducePull] {
+        let info = read(command, pull).unwrap();
+        assert_eq!(info.kind(), Kind::Pull);
+        assert!(matches!(&info.options, Options::Pull(_)));
+        let written = serde_json::to_string(&info.options).unwrap();
+        assert_eq!(written, pull.replace(": ", ":").replace(", ", ","));
+    }
+    let unsaid = read(Command::Pull, crawl).unwrap_err();
+    assert_eq!(unsaid, "RUN/run.json: options: missing field `duration_s`");
+    for command in [Command::Crawl, Command::ReproduceCrawl, Command::Robot] {
+        let info = read(command, pull).unwrap();
+        assert_eq!(info.kind() == Kind::Driven, command == Command::Robot);
+        assert!(info.options.crawl().is_some());
+    }
+}
+
+/// A column in another unit, or of another kind, would be read as what it is not.
+#[test]
+fn what_run_json_says_of_a_column_is_checked() {
+    let said = |from: &str, to: &str| {
+        let run = run_json();
+        assert!(run.contains(from), "{from}");
+        let home = folder(&[(RUN_FILE, Some(&run.replacen(from, to, 1)))]);
+        let refused = Recorded::read(home.path()).unwrap_err();
+        without_place(&refused.to_string(), home.path())
+    };
+    let lost = said("\"row_step_s\": 0.02, ", "");
+    assert_eq!(lost, "RUN/run.json: record: missing field `row_step_s`");
+    let channels = "RUN/run.json: record.channels";
+    let cases = [
+        (
+            r#""is": "instant", "unit": "mm""#,
+            r#""is": "instant", "unit": "m""#,
+            "x_mm of rows.csv is in mm, not in m",
+        ),
+        (
+            r#"["A_rad"], "is": "instant""#,
+            r#"["A_rad"], "is": "command""#,
+            "A_rad of rows.csv is \"instant\", not \"command\"",
+        ),
+        (
+            r#"["A_cmd_rad"], "is": "command""#,
+            r#"["A_cmd_rad"], "is": "instant""#,
+            "A_cmd_rad of rows.csv is \"command\", not \"instant\"",
+        ),
+        (
+            r#"["fx_n", "fy_n", "fz_n"], "is": "instant", "unit": "N""#,
+            r#"["fx_n", "fy_n", "fz_n"], "is": "instant", "unit": "kN""#,
+            "fx_n of contacts.csv is in N, not in kN",
+        ),
+        (
+            r#"["A_nm"]"#,
+            r#"["A_nm", "A_nm"]"#,
+            "A_nm of rows.csv is listed twice",
+        ),
+    ];
+    for (from, to, expected) in cases {
+        assert_eq!(said(from, to), format!("{channels}: {expected}"));
+    }
+}
+
+/// Both tables have what is listed, and nothing else.
+#[test]
+fn columns_that_are_not_listed_or_stand_twice_are_refused() {
+    let said = |file: &'static str, text: &str| {
+        let home = folder(&[(file, Some(text))]);
+        let refused = Recorded::read(home.path()).unwrap_err();
+        without_place(&refused.to_string(), home.path())
+    };
+    let wider = |table: &str, name: &str| {
+        let mut lines = table.lines().map(|line| format!("{line},0\n"));
+        format!(
+            "{},{name}\n",
+            lines.next().unwrap().trim_end_matches(",0\n")
+        ) + &lines.collect::<String>()
+    };
+    let unlisted = "record.channels of run.json does not list the column";
+    let cases = [
+        (ROWS_FILE, wider(ROWS, "heat"), format!("{unlisted} heat")),
+        (
+            CONTACTS_FILE,
+            wider(CONTACTS, "heat"),
+            format!("{unlisted} heat"),
+        ),
+        (
+            ROWS_FILE,
+            wider(ROWS, "A_rad"),
+            "the column A_rad is there twice".to_owned(),
+        ),
+        (
+            ROWS_FILE,
+            wider(ROWS, "time_s"),
+            "the column time_s is there twice".to_owned(),
+        ),
+        (
+            CONTACTS_FILE,
+            wider(CONTACTS, "fx_n"),
+            "the column fx_n is there twice".to_owned(),
+        ),
+    ];
+    for (file, text, expected) in cases {
+        assert_eq!(said(file, &text), format!("RUN/{file}: {expected}"));
+    }
 }
 
 #[test]
-fn a_pull_is_known_by_its_duration() {
-    let text =
-        r#"{"time_scale": 1.0, "scene_text": null, "duration_s": 5.0, "start_posture": "p"}"#;
-    let options: Options = serde_json::from_str(text).unwrap();
-    assert!(matches!(&options, Options::Pull(pull) if pull.start_posture.as_deref() == Some("p")));
-    assert_eq!(
-        serde_json::to_string(&options).unwrap(),
-        text.replace(": ", ":").replace(", ", ",")
-    );
+fn errors_of_run_json_name_the_key() {
+    let said = |from: &str, to: &str| {
+        let run = run_json();
+        assert!(run.contains(from), "{from}");
+        let home = folder(&[(RUN_FILE, Some(&run.replacen(from, to, 1)))]);
+        RecordInfo::read(home.path()).unwrap_err().to_string()
+    };
+    for (from, to, expected) in [
+        (
+            "\"rows\": 3",
+            "\"rows\": \"three\"",
+            "record.rows: invalid type: string \"three\", expected usize",
+        ),
+        (
+            "\"time_scale\": 1.0",
+            "\"time_scale\": []",
+            "options.time_scale: invalid type: sequence, expected f64",
+        ),
+        (
+            "\"folder\": \"f\"",
+            "\"folder\": 7",
+            "robot.folder: invalid type: integer `7`, expected a string",
+        ),
+        (
+            "\"is\": \"instant\"",
+            "\"is\": \"median\"",
+            "record.is: unknown variant `median`, expected one of `mean over the row`, `instant`, `command`",
+        ),
+        (
+            "\"name\": \"level\"",
+            "\"title\": 1",
+            "scene: missing field `name`",
+        ),
+        ("\"scene\":", "\"scenery\":", "missing field `scene`"),
+        ("\"kind\": \"imported\"", "\"kind\": \"told\"", "origin"),
+    ] {
+        let said = said(from, to);
+        assert!(said.contains(&format!("run.json: {expected}")), "{said}");
+    }
 }
 
 /// The head and the extent of a record as the release before wrote them.
@@ -422,6 +589,7 @@ fn a_joint_without_columns_is_said() {
     let record = read(&[(MODEL_FILE, Some(&MODEL.replace("\"A\"", "\"B\"")))]).unwrap();
     assert_eq!(record.joints, ["A", "B"]);
     assert!(!record.has_all_angles());
+    assert_eq!(record.missing_angle(), Some(("B", 0.02)));
     assert_eq!(record.unrecorded()[0], "the angle of B was not recorded");
 }
 

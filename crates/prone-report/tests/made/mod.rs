@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use prone::robot::{BodyId, JointId, Robot, SideLayout};
 use prone_files::compiled_robot::CompiledRobot;
 use prone_files::shipped;
-use prone_record::crawl_tables;
+use prone_record::record_columns;
 
 /// Times of the rows of a whole record, s.
 const TIMES_S: [f64; 3] = [0.02, 0.04, 0.06];
@@ -127,7 +127,7 @@ fn simulated() -> Value {
 fn written(folder: &Path, origin: &Value) {
     let nao = nao();
     let robot = nao.robot();
-    let channels = crawl_tables::channels(robot);
+    let channels = record_columns::channels(robot);
     let record = json!({
         "format": 2, "rows": TIMES_S.len(), "row_step_s": 0.02, "channels": channels,
     });
@@ -154,7 +154,7 @@ fn written(folder: &Path, origin: &Value) {
     }
     rows += "\n";
     for (index, time_s) in TIMES_S.into_iter().enumerate() {
-        write!(rows, "{time_s:.4},1,pull,{index}").unwrap();
+        write!(rows, "{time_s:.4},1,pull,0.{index}").unwrap();
         for column in &columns {
             let value = match *column {
                 "qw" | "contacts" => 1.0,

@@ -5,11 +5,11 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use prone::scene::ObstacleKind;
-use prone_sim::camera::{self, Camera, Picture};
+use prone_sim::camera::{self, Picture};
 use prone_sim::crawl::{Crawl, Row};
 use prone_sim::{Snapshot, World};
 
-use crate::frames::{Frames, FramesError, Wording, stacked};
+use crate::frames::{Frames, FramesError, Wording, stacked, towards};
 
 /// How many instants are shown.
 const INSTANTS: usize = 6;
@@ -145,13 +145,7 @@ fn close(world: &World, row: &Row, snapshot: &Snapshot, from: DVec3) -> Picture 
     let distance = DISTANCE * shown;
     let (width, height) = SIZE_CLOSE;
     let shown = shown * height as f64 / width as f64;
-    let camera = Camera {
-        position: target + distance * from.normalize(),
-        target,
-        vertical_fov: 2.0 * (shown / 2.0 / distance).atan(),
-        up: DVec3::Z,
-        inside: None,
-    };
+    let camera = towards(target, from, distance, shown);
     camera::ray_cast(&mut world.at(snapshot), &camera, SIZE_CLOSE)
 }
 
@@ -197,16 +191,10 @@ fn sequence(world: &World, gait: &str, crawl: &Crawl) -> Result<Option<Frames>, 
         last.ground_from_root.origin().metres().y,
     );
     let target = DVec3::new(f64::midpoint(low, high), y, MIDDLE * scale);
-    let direction = DVec3::new(0.0, -1.0, RISE).normalize();
+    let direction = DVec3::new(0.0, -1.0, RISE);
     let height = HEIGHT * scale;
     let distance = DISTANCE * width;
-    let camera = Camera {
-        position: target + distance * direction,
-        target,
-        vertical_fov: 2.0 * (height / 2.0 / distance).atan(),
-        up: DVec3::Z,
-        inside: None,
-    };
+    let camera = towards(target, direction, distance, height);
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

@@ -10,8 +10,9 @@ use prone_sim::World;
 
 use prone::scene::obstacle_name;
 
-/// Bodies, shapes and obstacles in metres; rotations as quaternions, real part first.
-pub(super) fn of(world: &World) -> Value {
+/// Describes bodies, shapes and obstacles of a world in metres; rotations are quaternions, real part
+/// first.
+pub(super) fn describe(world: &World) -> Value {
     let robot = world.robot();
     json!({
         "units": {

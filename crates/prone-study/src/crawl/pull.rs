@@ -3,10 +3,9 @@
 use prone::gait::Gait;
 use prone::regime::CONTROL_STEP;
 use prone::steering::Bearing;
-use prone_sim::pull::Pull;
+use prone_sim::pull::{Pull, Row};
 use prone_sim::{LoadedRobot, World};
 
-use super::instants;
 use super::record::{RecordError, shown};
 use super::run::{Subject, record_info};
 use prone_record::crawl_tables::Instant;
@@ -15,8 +14,10 @@ use prone_record::program::Program;
 use prone_record::record_info::{Options, PullOptions};
 use prone_record::recorded::Command;
 
-/// A pull of the published study.
+/// A pull that was simulated, and under which conditions.
 pub struct PullRecording<'a> {
+    /// What made it: a pull by itself, or one of the published study.
+    pub command: Command,
     /// With which robot.
     pub robot: &'a LoadedRobot,
     /// Where.
@@ -38,37 +39,41 @@ pub struct PullRecording<'a> {
 /// # Errors
 /// [`RecordError`].
 pub fn files(recording: &PullRecording<'_>, program: &Program) -> Result<Artefacts, RecordError> {
-    let PullRecording {
-        robot,
-        world,
-        gait,
-        file,
-        duration_s,
-        start_posture,
-        pull,
-    } = *recording;
+    let (robot, world, pull) = (recording.robot, recording.world, recording.pull);
     let options = PullOptions {
         time_scale: Some(1.0),
         scene_text: None,
-        duration_s,
-        start_posture: Some(start_posture.to_owned()),
+        duration_s: recording.duration_s,
+        start_posture: Some(recording.start_posture.to_owned()),
     };
-    let instants: Vec<Instant<'_>> = pull.rows.iter().filter_map(instants::of_pull).collect();
+    let instants: Vec<Instant<'_>> = pull.rows.iter().filter_map(instant).collect();
     let subject = Subject {
-        command: Command::ReproducePull,
-        gait,
-        file,
+        command: recording.command,
+        gait: recording.gait,
+        file: recording.file,
         command_step_s: CONTROL_STEP,
         rows: instants.len(),
         row_step_s: CONTROL_STEP,
         options: Options::Pull(options),
     };
     let info = record_info(robot, world, subject, program);
-    shown(
-        robot,
-        world,
-        &info,
-        Bearing::of_prone(&pull.start),
-        &instants,
-    )
+    let start = Bearing::of_prone(&pull.start);
+    shown(robot, world, &info, start, &instants)
+}
+
+/// A row as an instant of a record, where what is shown was kept.
+fn instant(row: &Row) -> Option<Instant<'_>> {
+    let shown = row.shown.as_ref()?;
+    Some(Instant {
+        time: row.time,
+        cycle: 0,
+        s: Some(shown.s),
+        command: &row.command,
+        angles: &row.angles,
+        actuator_torque: &row.actuator_torque,
+        contact: row.contact,
+        forces: &shown.forces,
+        ground_from_root: row.ground_from_root,
+        tops: shown.tops,
+    })
 }

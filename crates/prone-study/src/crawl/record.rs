@@ -1,12 +1,13 @@
 //! The files of a record folder.
 
+use prone::crawl::Stage;
+use prone::robot::Robot;
 use prone::steering::Bearing;
-use prone_sim::crawl::{Crawl, ROW_STEP};
+use prone_sim::crawl::{Crawl, ROW_STEP, Row};
 use prone_sim::{LoadedRobot, World};
 
-use super::instants;
-use super::run::{Conditions, GaitSource, Subject, record_info};
-use super::{angles, frames, model};
+use super::run::{GaitSource, Subject, record_info};
+use super::{frames, model};
 use crate::frames::FramesError;
 use prone_files::compiled_robot::{CompiledRobot, Violation};
 use prone_record::crawl_summary::CrawlSummary;
@@ -14,10 +15,11 @@ use prone_record::crawl_tables as tables;
 use prone_record::crawl_tables::Instant;
 use prone_record::output::{Artefacts, RUN_FILE, json};
 use prone_record::program::Program;
-use prone_record::record_info::RecordInfo;
+use prone_record::record_info::{CrawlOptions, Options, RecordInfo};
 use prone_record::recorded::{CONTACTS_FILE, Command, MODEL_FILE, ROBOT_FILE, ROWS_FILE};
+use prone_record::tables::as_written;
 use prone_report::figure_list::FigureList;
-use prone_report::figures::{self, FigureError, PNG_SCALE};
+use prone_report::figures::{self, AngleRecord, AngleRow, FigureError, PNG_SCALE};
 
 /// Why a record has no files.
 #[derive(Debug, thiserror::Error)]
@@ -49,7 +51,7 @@ pub struct Recording<'a> {
     /// With which cycle.
     pub gait: &'a GaitSource,
     /// Under which conditions.
-    pub conditions: &'a Conditions,
+    pub conditions: &'a CrawlOptions,
     /// What was measured, with rows.
     pub crawl: &'a Crawl,
     /// The same in figures.
@@ -78,8 +80,8 @@ pub fn files(
     for frames in frames::all(world, &summary.gait, crawl)? {
         list.picture(&mut artefacts, frames.figure, frames.png);
     }
-    let angles = angles::of_crawl(world.robot(), &summary.gait, crawl);
-    if let Some(figure) = figures::crawl_angles(&angles, published)? {
+    let drawn = angles(world.robot(), &summary.gait, crawl);
+    if let Some(figure) = figures::crawl_angles(&drawn, published)? {
         let png = figure.png(PNG_SCALE)?;
         list.drawing(&mut artefacts, "figures/", figure, png);
     }
@@ -111,14 +113,14 @@ pub fn numbers(
         command_step_s: world.robot().control.command_step,
         rows: crawl.rows.len(),
         row_step_s: ROW_STEP,
-        options: conditions.recorded(),
+        options: Options::Crawl(conditions.clone()),
     };
     let start = crawl
         .cycles
         .first()
         .map_or_else(Default::default, |cycle| cycle.from);
     let info = record_info(robot, world, subject, program);
-    let instants: Vec<Instant<'_>> = crawl.rows.iter().map(instants::of_crawl).collect();
+    let instants: Vec<Instant<'_>> = crawl.rows.iter().map(instant).collect();
     let mut artefacts = shown(robot, world, &info, start, &instants)?;
     artefacts.insert("summary.json".into(), json(summary)?);
     artefacts.insert("cycles.csv".into(), tables::cycles(summary)?);
@@ -139,7 +141,7 @@ pub(super) fn shown(
 ) -> Result<Artefacts, RecordError> {
     let mut artefacts = Artefacts::new();
     artefacts.insert(RUN_FILE.into(), json(info)?);
-    artefacts.insert(MODEL_FILE.into(), json(&model::of(world))?);
+    artefacts.insert(MODEL_FILE.into(), json(&model::describe(world))?);
     let rows = tables::rows(world.robot(), start, instants)?;
     artefacts.insert(ROWS_FILE.into(), rows);
     let contacts = tables::contacts(world.robot(), world.obstacles(), instants)?;
@@ -147,4 +149,50 @@ pub(super) fn shown(
     let compiled = CompiledRobot::new(robot.robot(), robot.files(), prone_sim::engine_version())?;
     artefacts.insert(ROBOT_FILE.into(), compiled.text().into_bytes());
     Ok(artefacts)
+}
+
+/// A row as an instant of a record.
+fn instant(row: &Row) -> Instant<'_> {
+    Instant {
+        time: row.time,
+        cycle: row.cycle,
+        s: match row.stage {
+            Stage::Pull { s, .. } => Some(s),
+            Stage::Recovery => None,
+        },
+        command: &row.command,
+        angles: &row.angles,
+        actuator_torque: &row.actuator_torque,
+        contact: row.contact,
+        forces: &row.forces,
+        ground_from_root: row.ground_from_root,
+        tops: row.tops,
+    }
+}
+
+/// The left chain of a crawl that was simulated with rows, to the digits of `rows.csv`.
+fn angles(robot: &Robot, gait: &str, crawl: &Crawl) -> AngleRecord {
+    let joints = robot.chain.left.commanded_joints();
+    let rows = crawl
+        .rows
+        .iter()
+        .filter(|row| row.cycle < AngleRecord::CYCLES);
+    let rows = rows.map(|row| AngleRow {
+        time_s: as_written(row.time, 4),
+        command_rad: joints
+            .map(|joint| as_written(row.command[joint], 6))
+            .to_vec(),
+        angle_rad: joints
+            .map(|joint| as_written(row.angles[joint], 6))
+            .to_vec(),
+    });
+    AngleRecord {
+        gait: gait.to_owned(),
+        joints: joints
+            .map(|joint| robot.joints[joint.0].name.clone())
+            .to_vec(),
+        rows: rows.collect(),
+        cycles: AngleRecord::CYCLES.min(crawl.cycles.len()),
+        not_simulated: None,
+    }
 }

@@ -6,11 +6,11 @@ use prone::regime::{Effort, SOLIMP, SOLREF, Servo, Stops};
 use prone::robot::{JointAngles, Robot};
 use prone_sim::{LoadedRobot, World};
 
-use prone_record::crawl_tables;
 use prone_record::head::Head;
 use prone_record::origin::{Origin, RegimeInfo, Simulated};
 use prone_record::program::{Program, RobotInfo};
-use prone_record::record_info::{CrawlOptions, Extent, GaitInfo, Options, RecordInfo, SceneInfo};
+use prone_record::record_columns;
+use prone_record::record_info::{Extent, GaitInfo, Options, RecordInfo, SceneInfo};
 use prone_record::recorded::Command;
 
 /// A crawl that ends past the obstacles of its scene.
@@ -31,60 +31,12 @@ pub struct GaitSource {
     pub text: String,
 }
 
-/// What was asked for, beside robot, gait and scene.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Conditions {
-    /// After how many cycles it was to end, or at most.
-    pub most_cycles: usize,
-    /// Where it was to end, mm, if past the obstacles.
-    pub until_past_mm: Option<f64>,
-    /// What durations were multiplied by.
-    pub time_scale: f64,
-    /// `none`, `constant`, `heading` or `heading-hold`.
-    pub steering: &'static str,
-    /// The constant turn command, degrees.
-    pub turn_command_deg: f64,
-    /// The heading that was turned to, degrees.
-    pub heading_deg: Option<f64>,
-    /// Largest calibration error of a joint, degrees.
-    pub joint_offset_deg: f64,
-    /// Seed of those errors.
-    pub seed: Option<u64>,
-    /// The errors themselves, rad, by joint; those of the other joints are zero.
-    pub joint_offsets_rad: Vec<(String, f64)>,
-    /// Text of the scene's file, where there is one.
-    pub scene_text: Option<String>,
-    /// File and text of the cycle that is taken uphill, where there is one.
-    pub uphill: Option<(String, String)>,
-}
-
-impl Conditions {
-    /// Names the errors of a robot's joints.
-    pub fn offsets_by_name(robot: &Robot, offsets: Option<&JointAngles>) -> Vec<(String, f64)> {
-        let Some(offsets) = offsets else {
-            return Vec::new();
-        };
-        let joints = robot.joints.iter().zip(offsets.as_slice());
-        let named = joints.map(|(joint, &offset)| (joint.name.clone(), offset));
-        named.filter(|(_, offset)| *offset != 0.0).collect()
-    }
-
-    /// The same as a record says it.
-    pub(super) fn recorded(&self) -> Options {
-        Options::Crawl(CrawlOptions {
-            most_cycles: Some(self.most_cycles),
-            until_past_mm: self.until_past_mm,
-            time_scale: Some(self.time_scale),
-            steering: Some(self.steering.to_owned()),
-            turn_command_deg: Some(self.turn_command_deg),
-            heading_deg: self.heading_deg,
-            joint_offset_deg: Some(self.joint_offset_deg),
-            seed: self.seed,
-            joint_offsets_rad: self.joint_offsets_rad.clone(),
-            scene_text: self.scene_text.clone(),
-            uphill: self.uphill.clone(),
-        })
-    }
+/// Names the calibration errors of a robot's joints, rad, but those that are zero.
+pub(super) fn offsets_by_name(robot: &Robot, offsets: Option<&JointAngles>) -> Vec<(String, f64)> {
+    let offsets = offsets.map_or(&[][..], JointAngles::as_slice);
+    let joints = robot.joints.iter().zip(offsets);
+    let named = joints.map(|(joint, &offset)| (joint.name.clone(), offset));
+    named.filter(|(_, offset)| *offset != 0.0).collect()
 }
 
 /// What tells one record from another: which command made it, of what, how long.
@@ -127,7 +79,7 @@ pub(super) fn record_info(
         record: Extent::new(
             subject.rows,
             Some(subject.row_step_s),
-            crawl_tables::channels(world.robot()),
+            record_columns::channels(world.robot()),
         ),
     }
 }

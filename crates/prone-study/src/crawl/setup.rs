@@ -11,10 +11,11 @@ use prone_record::experiment::{
     ChangedText, CrawlExperiment, Detail, Ending, GaitText, SceneChoice, ServoChoice,
     SteeringChoice, TextError,
 };
+use prone_record::record_info::CrawlOptions;
 use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, End, LimbsError, check_limbs};
 use prone_sim::{LoadError, LoadedRobot, World, WorldError};
 
-use super::run::{Conditions, GaitSource, PastObstacles};
+use super::run::{GaitSource, PastObstacles, offsets_by_name};
 use crate::search::settings::offsets;
 
 /// A crawl that can be simulated.
@@ -26,7 +27,7 @@ pub struct CrawlSetup {
     /// With which cycle.
     pub gait: GaitSource,
     /// Under which conditions, for its record.
-    pub conditions: Conditions,
+    pub conditions: CrawlOptions,
     /// Where it ends, if past obstacles.
     pub past: Option<PastObstacles>,
     /// What durations are multiplied by.
@@ -238,16 +239,16 @@ impl CrawlSetup {
             SteeringChoice::Line => ("heading-hold", 0.0, None),
             SteeringChoice::Heading { degrees } => ("heading", 0.0, Some(degrees)),
         };
-        let conditions = Conditions {
-            most_cycles,
+        let conditions = CrawlOptions {
+            most_cycles: Some(most_cycles),
             until_past_mm: past.map(|past| past.x * 1e3),
-            time_scale: scale.value(),
-            steering: steering_name,
-            turn_command_deg,
+            time_scale: Some(scale.value()),
+            steering: Some(steering_name.to_owned()),
+            turn_command_deg: Some(turn_command_deg),
             heading_deg,
-            joint_offset_deg: experiment.joint_offset_deg.unwrap_or_default(),
+            joint_offset_deg: Some(experiment.joint_offset_deg.unwrap_or_default()),
             seed: experiment.seed,
-            joint_offsets_rad: Conditions::offsets_by_name(world.robot(), offsets.as_ref()),
+            joint_offsets_rad: offsets_by_name(world.robot(), offsets.as_ref()),
             scene_text: experiment.scene.text.as_ref().map(|it| it.text.clone()),
             uphill: uphill
                 .as_ref()

@@ -4,12 +4,11 @@ use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale};
 use prone::robot::Robot;
 use prone::statics::GRAVITY;
 use prone_sim::World;
-use prone_sim::crawl::{Crawl, CycleRow, Touch};
+use prone_sim::crawl::{Crawl, CycleRow, Effort};
 
-use super::joints;
 use prone::scene::obstacle_name;
 use prone_record::crawl_summary::{
-    CalibrationStop, CrawlSummary, CycleSummary, PlateContact, SheetClamp, TopsMm,
+    CalibrationStop, CrawlSummary, CycleSummary, JointSummary, PlateContact, SheetClamp, TopsMm,
 };
 
 /// Reduces a record to figures. `until_past` says whether the crawl was to end past the obstacles.
@@ -42,12 +41,27 @@ pub fn of(
     let metres = (path_mm > 0.0).then_some(path_mm / 1e3);
     let (heat_s, work_j) = (crawl.effort.heat(robot), crawl.effort.work());
     let weight = robot.mass() * GRAVITY;
-    let joints = joints::of(robot, &crawl.effort);
-    let winding_loss_j = joints::winding_loss(&joints);
+    let joints = joint_summaries(robot, &crawl.effort);
+    // Nothing where that of a joint is not known.
+    let winding_loss_j: Option<f64> = joints.iter().map(|joint| joint.winding_loss_j).sum();
     let shoulders = robot.chain.sides().map(|side| side.shoulder);
     let shoulders = shoulders.map(|joint| crawl.effort.joints[joint.0]);
     let demanded = shoulders.map(|shoulder| shoulder.demanded_peak);
     let over = shoulders.map(|shoulder| shoulder.saturated / crawl.effort.seconds);
+    let contacts = crawl.touches.iter().map(|touch| PlateContact {
+        body: robot.bodies[touch.body.0].name.clone(),
+        obstacle: obstacle_name(world.obstacles(), touch.obstacle),
+        count: touch.count,
+        first_s: touch.first,
+        seconds: touch.seconds,
+        peak_n: touch.peak,
+    });
+    let clamps = checked.clamps().iter();
+    let stops = crawl.stopped.iter().map(|stopped| CalibrationStop {
+        joint: robot.joints[stopped.joint.0].name.clone(),
+        commands: stopped.commands,
+        largest_deg: stopped.largest.to_degrees(),
+    });
     Ok(CrawlSummary {
         gait: cycle.pull.name.clone(),
         robot: robot.name.clone(),
@@ -64,8 +78,8 @@ pub fn of(
         lateral_mm,
         yaw_deg: per_cycle.iter().map(|cycle| cycle.yaw_deg).sum(),
         plate_contacts: crawl.touches.iter().map(|touch| touch.count).sum(),
-        contacts: contacts(world, &crawl.touches),
-        top_mm: TopsMm::of(&crawl.tops),
+        contacts: contacts.collect(),
+        top_mm: TopsMm::from_metres(&crawl.tops),
         stride_mm,
         pull_efficiency: of_stride(pull_mm_per_cycle),
         stride_efficiency: of_stride(mm_per_cycle),
@@ -86,19 +100,35 @@ pub fn of(
             .zip(winding_loss_j)
             .map(|(metres, loss)| (work_j + loss) / (weight * metres)),
         joints,
-        clamps: clamps(robot, &checked),
-        calibration_stops: calibration_stops(robot, crawl),
+        clamps: clamps
+            .map(|clamp| SheetClamp::from_clamp(robot, clamp))
+            .collect(),
+        calibration_stops: stops.collect(),
         per_cycle,
     })
 }
 
-fn calibration_stops(robot: &Robot, crawl: &Crawl) -> Vec<CalibrationStop> {
-    let stopped = crawl.stopped.iter().map(|stopped| CalibrationStop {
-        joint: robot.joints[stopped.joint.0].name.clone(),
-        commands: stopped.commands,
-        largest_deg: stopped.largest.to_degrees(),
+/// What each motor of a robot did, in the order of its joints.
+fn joint_summaries(robot: &Robot, effort: &Effort) -> Vec<JointSummary> {
+    let pairs = robot.joints.iter().zip(&effort.joints);
+    let summaries = pairs.map(|(joint, did)| JointSummary {
+        joint: joint.name.clone(),
+        effort_limit_nm: joint.effort_limit,
+        nominal_nm: joint.motor.map(|motor| motor.nominal),
+        peak_nm: did.peak,
+        rms_nm: (did.square / effort.seconds).sqrt(),
+        demanded_peak_nm: did.demanded_peak,
+        saturated_share: did.saturated / effort.seconds,
+        heat_s: joint
+            .motor
+            .map(|motor| did.square / (motor.nominal * motor.nominal)),
+        work_j: did.work,
+        winding_loss_j: joint
+            .motor
+            .and_then(|motor| motor.winding_loss())
+            .map(|watts_per_square| did.square * watts_per_square),
     });
-    stopped.collect()
+    summaries.collect()
 }
 
 /// Advance of the shoulder in the planned chain, m.
@@ -117,29 +147,6 @@ fn longest_saturated(crawl: &Crawl) -> (f64, Option<usize>) {
         }
     }
     most
-}
-
-fn contacts(world: &World, touches: &[Touch]) -> Vec<PlateContact> {
-    let contacts = touches.iter().map(|touch| PlateContact {
-        body: world.robot().bodies[touch.body.0].name.clone(),
-        obstacle: obstacle_name(world.obstacles(), touch.obstacle),
-        count: touch.count,
-        first_s: touch.first,
-        seconds: touch.seconds,
-        peak_n: touch.peak,
-    });
-    contacts.collect()
-}
-
-fn clamps(robot: &Robot, checked: &CheckedCycle) -> Vec<SheetClamp> {
-    let clamps = checked.clamps().iter().map(|clamp| SheetClamp {
-        joint: robot.joints[clamp.joint.0].name.clone(),
-        samples: clamp.samples,
-        from_percent: clamp.from * 100.0,
-        to_percent: clamp.to * 100.0,
-        largest_deg: clamp.largest.to_degrees(),
-    });
-    clamps.collect()
 }
 
 fn per_cycle(robot: &Robot, cycles: &[CycleRow]) -> Vec<CycleSummary> {
@@ -161,7 +168,7 @@ fn per_cycle(robot: &Robot, cycles: &[CycleRow]) -> Vec<CycleSummary> {
             yaw_deg: advance.yaw.to_degrees(),
             x_mm: (cos * dx + sin * dy) * 1e3,
             y_mm: (cos * dy - sin * dx) * 1e3,
-            top_mm: TopsMm::of(&row.tops),
+            top_mm: TopsMm::from_metres(&row.tops),
             heat_s: row.effort.heat(robot),
             work_j: row.effort.work(),
             body_share: row.body_share,

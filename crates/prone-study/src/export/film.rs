@@ -7,11 +7,13 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use prone::frames::{Ground, Root, Transform};
+use prone::robot::Robot;
 use prone_sim::camera::{self, Camera, Picture};
 use prone_sim::{Snapshot, World};
 
 use prone_record::recorded::Recorded;
 
+use crate::frames::{field_of_view, towards};
 use crate::watch::{Progress, Watch};
 
 // Lengths are those at scale 1 of `camera::scale`.
@@ -76,16 +78,25 @@ pub struct Film<'a> {
 #[derive(Debug, thiserror::Error)]
 pub enum FilmError {
     /// The record is of another robot than the world has.
-    #[error("the record has {recorded} joints in another order than the robot's {joints}")]
+    #[error(
+        "joint {number} of the record is {recorded}, and {own} of the robot: it is of another robot"
+    )]
     OtherRobot {
-        /// How many the record has.
-        recorded: usize,
-        /// How many the robot has.
-        joints: usize,
+        /// Number of the first joint that differs, from 1.
+        number: usize,
+        /// Its name in the record; `none` where the record has fewer.
+        recorded: String,
+        /// Its name in the robot.
+        own: String,
     },
     /// The record does not say where the robot is at every instant.
-    #[error("poses or angles of some instants were not recorded: they cannot be filmed")]
-    Unrecorded,
+    #[error("{what} was not recorded at {time_s:.2} s: that cannot be filmed")]
+    Unrecorded {
+        /// A joint's angle, or the root's pose.
+        what: String,
+        /// The first such instant, s.
+        time_s: f64,
+    },
     /// The model has no camera.
     #[error("{robot} has no camera in its model: there is no view from its eye")]
     NoEye {
@@ -129,18 +140,18 @@ impl<'a> Film<'a> {
     /// # Errors
     /// [`FilmError`].
     pub fn new(world: &'a World, record: &'a Recorded, shot: Shot) -> Result<Self, FilmError> {
-        let joints = &world.robot().joints;
-        if !joints.iter().map(|joint| &joint.name).eq(&record.joints) {
-            return Err(FilmError::OtherRobot {
-                recorded: record.joints.len(),
-                joints: joints.len(),
-            });
+        check_joints(world.robot(), &record.joints)?;
+        if let Some((joint, time_s)) = record.missing_angle() {
+            let what = format!("the angle of {joint}");
+            return Err(FilmError::Unrecorded { what, time_s });
         }
-        let roots = record.rows.iter().map(|row| row.ground_from_root);
-        let roots: Option<Vec<Transform<Ground, Root>>> = roots.collect();
-        let roots = roots
-            .filter(|_| record.has_all_angles())
-            .ok_or(FilmError::Unrecorded)?;
+        let roots = record.rows.iter().map(|row| {
+            row.ground_from_root.ok_or_else(|| FilmError::Unrecorded {
+                what: "the pose of the root".to_owned(),
+                time_s: row.time_s,
+            })
+        });
+        let roots = roots.collect::<Result<Vec<_>, _>>()?;
         let film = Self {
             world,
             record,
@@ -260,13 +271,9 @@ impl<'a> Film<'a> {
         let middle = low.midpoint(high);
         let target = DVec3::new(middle.x, middle.y, MIDDLE * scale);
         let distance = DISTANCE * width;
-        Camera {
-            position: target + distance * DVec3::new(0.0, -1.0, RISE).normalize(),
-            target,
-            vertical_fov: self.field_of_view((width, 0.0), distance),
-            up: DVec3::Z,
-            inside: None,
-        }
+        let (columns, rows) = self.shot.size;
+        let height = width * rows as f64 / columns as f64;
+        towards(target, DVec3::new(0.0, -1.0, RISE), distance, height)
     }
 
     /// Goes along.
@@ -278,20 +285,32 @@ impl<'a> Film<'a> {
         let mut target = self.way[near];
         let scale = camera::scale(self.world.robot());
         target.z = MIDDLE * scale;
-        let shown = (FOLLOWED.0 * scale, FOLLOWED.1 * scale);
+        let (width, height) = (FOLLOWED.0 * scale, FOLLOWED.1 * scale);
+        let (columns, rows) = self.shot.size;
+        let height = height.max(width * rows as f64 / columns as f64);
         let camera = Camera::three_quarter(target, scale);
         Camera {
-            vertical_fov: self.field_of_view(shown, camera.position.distance(target)),
+            vertical_fov: field_of_view(height, camera.position.distance(target)),
             ..camera
         }
     }
+}
 
-    /// The least angle that shows so many metres, width and height, at a distance.
-    fn field_of_view(&self, (width, height): (f64, f64), distance: f64) -> f64 {
-        let (columns, rows) = self.shot.size;
-        let height = height.max(width * rows as f64 / columns as f64);
-        2.0 * (height / 2.0 / distance).atan()
+/// Checks that a record has the joints of a robot, in their order.
+fn check_joints(robot: &Robot, joints: &[String]) -> Result<(), FilmError> {
+    let name = |name: Option<&String>| name.map_or("none", String::as_str).to_owned();
+    for index in 0..robot.joints.len().max(joints.len()) {
+        let own = robot.joints.get(index).map(|joint| &joint.name);
+        let recorded = joints.get(index);
+        if own != recorded {
+            return Err(FilmError::OtherRobot {
+                number: index + 1,
+                recorded: name(recorded),
+                own: name(own),
+            });
+        }
     }
+    Ok(())
 }
 
 /// Where the root is at each row, averaged over [`CALM`] before and after it, as far as the record
@@ -348,7 +367,30 @@ impl Clock {
 
 #[cfg(test)]
 mod tests {
-    use super::Clock;
+    use prone_files::compiled_robot::CompiledRobot;
+    use prone_files::shipped;
+
+    use super::{Clock, check_joints};
+
+    #[test]
+    fn a_record_of_another_robot_is_refused_by_the_first_joint_that_differs() {
+        let robot = CompiledRobot::shipped(&shipped::NAO).unwrap().into_robot();
+        let own = robot.joints.iter().map(|joint| joint.name.clone());
+        let mut joints: Vec<String> = own.collect();
+        assert!(check_joints(&robot, &joints).is_ok());
+        let said = |joints: &[String]| check_joints(&robot, joints).unwrap_err().to_string();
+        let last = joints.pop().unwrap();
+        let fewer = format!(
+            "joint {} of the record is none, and {last} ",
+            joints.len() + 1
+        );
+        assert!(said(&joints).starts_with(&fewer), "{}", said(&joints));
+        joints.swap(0, 1);
+        assert_eq!(
+            said(&joints),
+            "joint 1 of the record is HeadPitch, and HeadYaw of the robot: it is of another robot"
+        );
+    }
 
     #[test]
     fn a_clock_does_not_drift() {

@@ -51,7 +51,7 @@ impl Reel for GifReel {
     type Error = EncodingError;
 
     fn frame(before: Option<&Picture>, now: &Picture) -> Result<Self::Frame, EncodingError> {
-        let mut moved = Moved::of(before, now, Corner::Any);
+        let mut moved = Moved::between(before, now, Corner::Any);
         let (width, height) = (short(moved.width), short(moved.height));
         let mut frame = Frame::from_rgba_speed(width, height, &mut moved.rgba, COARSENESS);
         (frame.left, frame.top) = (short(moved.left), short(moved.top));

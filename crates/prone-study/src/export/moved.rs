@@ -15,7 +15,7 @@ pub(super) struct Moved {
 impl Moved {
     /// Compares two pictures of one size; without one before, everything has changed. `corner` says
     /// where the rectangle may begin.
-    pub(super) fn of(before: Option<&Picture>, now: &Picture, corner: Corner) -> Self {
+    pub(super) fn between(before: Option<&Picture>, now: &Picture, corner: Corner) -> Self {
         let changed = |column: usize, row: usize| {
             let at = 3 * (row * now.width + column);
             before.is_none_or(|before| before.rgb[at..at + 3] != now.rgb[at..at + 3])
@@ -79,17 +79,17 @@ mod tests {
         let mut now = before.clone();
         now.rgb[3 * (4 + 1)] = 8;
         now.rgb[3 * (8 + 3)] = 8;
-        let moved = Moved::of(Some(&before), &now, Corner::Any);
+        let moved = Moved::between(Some(&before), &now, Corner::Any);
         assert_eq!(
             (moved.left, moved.top, moved.width, moved.height),
             (1, 1, 3, 2)
         );
         let opacity: Vec<u8> = moved.rgba.chunks(4).map(|pixel| pixel[3]).collect();
         assert_eq!(opacity, [255, 0, 0, 0, 0, 255]);
-        let even = Moved::of(Some(&before), &now, Corner::Even);
+        let even = Moved::between(Some(&before), &now, Corner::Even);
         assert_eq!((even.left, even.top, even.width, even.height), (0, 0, 4, 3));
-        let same = Moved::of(Some(&now), &now, Corner::Any);
+        let same = Moved::between(Some(&now), &now, Corner::Any);
         assert_eq!(same.rgba, [0; 4]);
-        assert_eq!(Moved::of(None, &now, Corner::Any).rgba.len(), 48);
+        assert_eq!(Moved::between(None, &now, Corner::Any).rgba.len(), 48);
     }
 }

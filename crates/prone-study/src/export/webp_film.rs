@@ -66,7 +66,7 @@ impl Reel for WebpReel {
     type Error = EncodingError;
 
     fn frame(before: Option<&Picture>, now: &Picture) -> Result<WebpFrame, EncodingError> {
-        let moved = Moved::of(before, now, Corner::Even);
+        let moved = Moved::between(before, now, Corner::Even);
         let mut file = Vec::new();
         let side = |pixels: usize| u32::try_from(pixels).unwrap_or(u32::MAX);
         WebPEncoder::new(&mut file).encode(

@@ -12,7 +12,7 @@ use crate::view;
 use prone_record::crawl_summary::CrawlSummary;
 use prone_record::figure_entry::FIGURES_FILE;
 use prone_record::origin::Origin;
-use prone_record::record_info::RecordInfo;
+use prone_record::record_info::{Kind, RecordInfo};
 use prone_record::recorded::{Command, Recorded, compiled_robot};
 
 /// Figures of a crawl, in its record folder.
@@ -31,10 +31,10 @@ impl Record {
     /// Its place among the replays: those that the user named come first, then pulls, which are one
     /// gait beside the other.
     pub(in crate::report) fn replay_place(&self, given: Given) -> u8 {
-        match (given, self.info.head.command) {
+        match (given, self.info.kind()) {
             (Given::Named, _) => 0,
-            (Given::Within, Command::ReproducePull) => 1,
-            (Given::Within, Command::Crawl | Command::ReproduceCrawl) => 2,
+            (Given::Within, Kind::Pull) => 1,
+            (Given::Within, Kind::Crawl | Kind::Driven) => 2,
         }
     }
 }
@@ -59,7 +59,7 @@ pub(in crate::report) fn read(
     let has = |file: &str| simulated || folder.path.join(file).exists();
     let command = record.run.head.command;
     let (mut summary, mut drawing) = (None, None);
-    if command != Command::ReproducePull {
+    if record.run.kind() != Kind::Pull {
         if has(SUMMARY_FILE) {
             summary = Some(folder.json(SUMMARY_FILE)?);
         } else {
