@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::gait_search::Broken;
 use crate::search::Search;
-use crate::tables::{finish, number};
+use crate::tables::{columns, maybe, number};
 
 /// What is minimised.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -181,84 +181,66 @@ impl ConfirmedSetting {
 ///
 /// # Errors
 /// [`csv::Error`], which writing to memory does not produce.
-pub fn csv(frontier: &Frontier) -> Result<Vec<u8>, csv::Error> {
-    let mut table = csv::Writer::from_writer(Vec::new());
-    table.write_record([
-        "ceiling_mm",
-        "seed",
-        "setting",
-        "mm_per_cycle",
-        "mm_per_s",
-        "yaw_deg",
-        "top_mm",
-        "top_part",
-        "heat_per_metre_s",
-        "peak_torque_over_rated",
-        "peak_joint",
-        "demanded_shoulder_nm",
-        "kept",
-        "refused",
-    ])?;
-    let maybe = |value: Option<f64>, decimals| {
-        value.map_or_else(String::new, |value| number(value, decimals))
+pub fn csv<'f>(frontier: &'f Frontier) -> Result<Vec<u8>, csv::Error> {
+    let settings = |found: &'f Found| {
+        let settings = found.confirmed.settings.iter();
+        settings.map(move |setting| (found, setting))
     };
-    for found in &frontier.found {
-        for row in &found.confirmed.settings {
-            table.write_record([
-                maybe(found.ceiling_mm, 1),
-                found.seed.to_string(),
-                row.setting.to_string(),
-                maybe(row.mm_per_cycle, 3),
-                maybe(row.mm_per_s, 3),
-                maybe(row.yaw_deg, 3),
-                maybe(row.top_mm, 3),
-                row.top_part.clone().unwrap_or_default(),
-                maybe(row.heat_per_metre_s, 4),
-                maybe(row.peak_torque_over_rated, 4),
-                row.peak_joint.clone().unwrap_or_default(),
-                maybe(row.demanded_shoulder_nm, 4),
-                maybe(row.kept, 4),
-                row.refused.clone().unwrap_or_default(),
-            ])?;
-        }
-    }
-    finish(table)
+    columns(
+        frontier.found.iter().flat_map(settings),
+        [
+            ("ceiling_mm", &|(found, _)| maybe(found.ceiling_mm, 1)),
+            ("seed", &|(found, _)| found.seed.to_string()),
+            ("setting", &|(_, it)| it.setting.to_string()),
+            ("mm_per_cycle", &|(_, it)| maybe(it.mm_per_cycle, 3)),
+            ("mm_per_s", &|(_, it)| maybe(it.mm_per_s, 3)),
+            ("yaw_deg", &|(_, it)| maybe(it.yaw_deg, 3)),
+            ("top_mm", &|(_, it)| maybe(it.top_mm, 3)),
+            ("top_part", &|(_, it)| {
+                it.top_part.clone().unwrap_or_default()
+            }),
+            ("heat_per_metre_s", &|(_, it)| maybe(it.heat_per_metre_s, 4)),
+            ("peak_torque_over_rated", &|(_, it)| {
+                maybe(it.peak_torque_over_rated, 4)
+            }),
+            ("peak_joint", &|(_, it)| {
+                it.peak_joint.clone().unwrap_or_default()
+            }),
+            ("demanded_shoulder_nm", &|(_, it)| {
+                maybe(it.demanded_shoulder_nm, 4)
+            }),
+            ("kept", &|(_, it)| maybe(it.kept, 4)),
+            ("refused", &|(_, it)| it.refused.clone().unwrap_or_default()),
+        ],
+    )
 }
 
 /// `history.csv`: one row per generation of each search, in the order of ceilings.
 ///
 /// # Errors
 /// [`csv::Error`], which writing to memory does not produce.
-pub fn history_csv(
-    ceilings_mm: &[Option<f64>],
-    searches: &[Search],
+pub fn history_csv<'s>(
+    ceilings_mm: &'s [Option<f64>],
+    searches: &'s [Search],
 ) -> Result<Vec<u8>, csv::Error> {
-    let mut table = csv::Writer::from_writer(Vec::new());
-    table.write_record([
-        "ceiling_mm",
-        "seed",
-        "generation",
-        "evaluations",
-        "best_violation",
-        "best_value",
-        "mean_violation",
-        "feasible",
-    ])?;
-    for (ceiling, search) in ceilings_mm.iter().zip(searches) {
-        for run in search.runs() {
-            for row in &run.history.0 {
-                table.write_record([
-                    ceiling.map_or_else(String::new, |ceiling| number(ceiling, 1)),
-                    run.seed.to_string(),
-                    row.generation.to_string(),
-                    row.evaluations.to_string(),
-                    number(row.best.violation(), 6),
-                    number(row.best.value(), 6),
-                    number(row.mean_violation, 6),
-                    row.feasible.to_string(),
-                ])?;
-            }
-        }
-    }
-    finish(table)
+    let runs = |(&ceiling, search): (&'s Option<f64>, &'s Search)| {
+        let runs = search.runs().iter();
+        let generations = runs.flat_map(|run| run.history.0.iter().map(move |it| (run.seed, it)));
+        generations.map(move |(seed, it)| (ceiling, seed, it))
+    };
+    columns(
+        ceilings_mm.iter().zip(searches).flat_map(runs),
+        [
+            ("ceiling_mm", &|(ceiling, _, _)| maybe(*ceiling, 1)),
+            ("seed", &|(_, seed, _)| seed.to_string()),
+            ("generation", &|(_, _, it)| it.generation.to_string()),
+            ("evaluations", &|(_, _, it)| it.evaluations.to_string()),
+            ("best_violation", &|(_, _, it)| {
+                number(it.best.violation(), 6)
+            }),
+            ("best_value", &|(_, _, it)| number(it.best.value(), 6)),
+            ("mean_violation", &|(_, _, it)| number(it.mean_violation, 6)),
+            ("feasible", &|(_, _, it)| it.feasible.to_string()),
+        ],
+    )
 }

@@ -5,8 +5,8 @@ use std::borrow::Cow;
 use serde::{Deserialize, Serialize};
 
 use crate::curves_info::CurvesInfo;
-use crate::search::Search;
-use crate::tables::{finish, number};
+use crate::search::{Search, SeededRun};
+use crate::tables::{columns, maybe, number};
 
 /// What a search found.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -209,43 +209,34 @@ impl Row {
 ///
 /// # Errors
 /// [`csv::Error`], which writing to memory does not produce.
-pub fn history_csv(search: &Search) -> Result<Vec<u8>, csv::Error> {
-    let mut table = csv::Writer::from_writer(Vec::new());
-    table.write_record([
-        "seed",
-        "generation",
-        "evaluations",
-        "best_violation",
-        "best_torque",
-        "generation_best_violation",
-        "generation_best_torque",
-        "mean_violation",
-        "feasible",
-        "mean_feasible_torque",
-        "restarts",
-        "mean_torque",
-    ])?;
-    for run in search.runs() {
-        for row in &run.history.0 {
-            let mean_torque = (row.mean_value.is_finite()).then(|| number(row.mean_value, 6));
-            let mean = (row.feasible > 0).then(|| number(row.mean_feasible_value, 6));
-            table.write_record([
-                run.seed.to_string(),
-                row.generation.to_string(),
-                row.evaluations.to_string(),
-                number(row.best.violation(), 6),
-                number(row.best.value(), 6),
-                number(row.generation_best.violation(), 6),
-                number(row.generation_best.value(), 6),
-                number(row.mean_violation, 6),
-                row.feasible.to_string(),
-                mean.unwrap_or_default(),
-                row.restarts.to_string(),
-                mean_torque.unwrap_or_default(),
-            ])?;
-        }
-    }
-    finish(table)
+pub fn history_csv<'s>(search: &'s Search) -> Result<Vec<u8>, csv::Error> {
+    let generations = |run: &'s SeededRun| run.history.0.iter().map(move |it| (run.seed, it));
+    columns(
+        search.runs().iter().flat_map(generations),
+        [
+            ("seed", &|(seed, _)| seed.to_string()),
+            ("generation", &|(_, it)| it.generation.to_string()),
+            ("evaluations", &|(_, it)| it.evaluations.to_string()),
+            ("best_violation", &|(_, it)| number(it.best.violation(), 6)),
+            ("best_torque", &|(_, it)| number(it.best.value(), 6)),
+            ("generation_best_violation", &|(_, it)| {
+                number(it.generation_best.violation(), 6)
+            }),
+            ("generation_best_torque", &|(_, it)| {
+                number(it.generation_best.value(), 6)
+            }),
+            ("mean_violation", &|(_, it)| number(it.mean_violation, 6)),
+            ("feasible", &|(_, it)| it.feasible.to_string()),
+            ("mean_feasible_torque", &|(_, it)| {
+                let feasible = it.feasible > 0;
+                feasible
+                    .then(|| number(it.mean_feasible_value, 6))
+                    .unwrap_or_default()
+            }),
+            ("restarts", &|(_, it)| it.restarts.to_string()),
+            ("mean_torque", &|(_, it)| maybe(finite(it.mean_value), 6)),
+        ],
+    )
 }
 
 /// `confirmation.csv`: one row per simulated pull.
@@ -253,46 +244,28 @@ pub fn history_csv(search: &Search) -> Result<Vec<u8>, csv::Error> {
 /// # Errors
 /// [`csv::Error`], which writing to memory does not produce.
 pub fn confirmation_csv(confirmation: &Confirmation) -> Result<Vec<u8>, csv::Error> {
-    let mut table = csv::Writer::from_writer(Vec::new());
-    table.write_record([
-        "regime",
-        "gait",
-        "duration_s",
-        "objective",
-        "ratio",
-        "torque_n2m2s",
-        "heat_s",
-        "peak_of_effort",
-        "peak_joint",
-        "body_share_percent",
-        "carried_from_percent",
-        "advance_mm",
-        "top_mm",
-    ])?;
-    for row in &confirmation.rows {
-        table.write_record(cells(row))?;
-    }
-    finish(table)
+    columns(
+        &confirmation.rows,
+        [
+            ("regime", &|it: &&Row| it.regime.to_owned()),
+            ("gait", &|it| it.gait.clone()),
+            ("duration_s", &|it| it.duration_s.to_string()),
+            ("objective", &|it| number(it.objective, 6)),
+            ("ratio", &|it| maybe(finite(it.ratio), 6)),
+            ("torque_n2m2s", &|it| number(it.torque_n2m2s, 6)),
+            ("heat_s", &|it| maybe(it.heat_s.and_then(finite), 6)),
+            ("peak_of_effort", &|it| number(it.peak_of_effort, 6)),
+            ("peak_joint", &|it| it.peak_joint.to_owned()),
+            ("body_share_percent", &|it| number(it.body_share_percent, 3)),
+            ("carried_from_percent", &|it| {
+                maybe(it.carried_from_percent.and_then(finite), 3)
+            }),
+            ("advance_mm", &|it| number(it.advance_mm, 3)),
+            ("top_mm", &|it| number(it.top_mm, 3)),
+        ],
+    )
 }
 
-fn cells(row: &Row) -> [String; 13] {
-    let maybe = |value: Option<f64>, decimals| {
-        let value = value.filter(|value| value.is_finite());
-        value.map_or_else(String::new, |value| number(value, decimals))
-    };
-    [
-        row.regime.to_owned(),
-        row.gait.clone(),
-        row.duration_s.to_string(),
-        number(row.objective, 6),
-        maybe(Some(row.ratio), 6),
-        number(row.torque_n2m2s, 6),
-        maybe(row.heat_s, 6),
-        number(row.peak_of_effort, 6),
-        row.peak_joint.to_owned(),
-        number(row.body_share_percent, 3),
-        maybe(row.carried_from_percent, 3),
-        number(row.advance_mm, 3),
-        number(row.top_mm, 3),
-    ]
+fn finite(value: f64) -> Option<f64> {
+    Some(value).filter(|value| value.is_finite())
 }

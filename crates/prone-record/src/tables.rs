@@ -62,18 +62,14 @@ pub fn chains(chains: &[ChainRecord]) -> Result<Vec<u8>, csv::Error> {
 /// # Errors
 /// [`csv::Error`], which writing to memory does not produce.
 pub fn costs(costs: &[CostRecord]) -> Result<Vec<u8>, csv::Error> {
-    let rows = costs.iter().map(|cost| {
-        let published = cost.published_n2m2s.map(|cost| number(cost, 3));
+    columns(
+        costs,
         [
-            cost.gait.clone(),
-            cost.duration_s.to_string(),
-            number(cost.cost_n2m2s, 6),
-            published.unwrap_or_default(),
-        ]
-    });
-    file(
-        ["gait", "duration_s", "cost_n2m2s", "published_n2m2s"],
-        rows,
+            ("gait", &|it: &&CostRecord| it.gait.clone()),
+            ("duration_s", &|it| it.duration_s.to_string()),
+            ("cost_n2m2s", &|it| number(it.cost_n2m2s, 6)),
+            ("published_n2m2s", &|it| maybe(it.published_n2m2s, 3)),
+        ],
     )
 }
 
@@ -86,10 +82,31 @@ pub fn number(value: f64, decimals: usize) -> String {
     }
 }
 
+/// The same of a number that may be missing, and then leaves its cell empty.
+pub fn maybe(value: Option<f64>, decimals: usize) -> String {
+    value.map_or_else(String::new, |value| number(value, decimals))
+}
+
 /// A value as it is read again from a table that has it with so many decimals: what is drawn of it is
 /// then the same before and after.
 pub fn as_written(value: f64, decimals: usize) -> f64 {
     number(value, decimals).parse().unwrap_or(value)
+}
+
+/// What stands in a column of a row.
+pub type Cell<'c, R> = &'c dyn Fn(&R) -> String;
+
+/// A table of columns, each with its name and what stands in it, as a file.
+///
+/// # Errors
+/// [`csv::Error`], which writing to memory does not produce.
+pub fn columns<R, const N: usize>(
+    rows: impl IntoIterator<Item = R>,
+    columns: [(&str, Cell<'_, R>); N],
+) -> Result<Vec<u8>, csv::Error> {
+    let rows = rows.into_iter();
+    let rows = rows.map(|row| columns.map(|(_, cell)| cell(&row)));
+    file(columns.map(|(name, _)| name), rows)
 }
 
 /// A table of a header and rows as a file.
@@ -105,17 +122,8 @@ pub fn file<C: AsRef<[u8]>, R: IntoIterator<Item = C>>(
     for row in rows {
         table.write_record(row)?;
     }
-    finish(table)
-}
-
-/// The table as a file.
-///
-/// # Errors
-/// [`csv::Error`], which writing to memory does not produce.
-pub fn finish(table: csv::Writer<Vec<u8>>) -> Result<Vec<u8>, csv::Error> {
-    table
-        .into_inner()
-        .map_err(|error| error.into_error().into())
+    let bytes = table.into_inner();
+    bytes.map_err(|error| error.into_error().into())
 }
 
 #[cfg(test)]
