@@ -6,7 +6,7 @@ use prone::scene::{Quantity, SceneError};
 use prone_record::experiment::{Experiment, Under};
 use prone_study::crawl::CrawlSetupError;
 use prone_study::run::RunError;
-use prone_study::search::cycles::CycleSearchError;
+use prone_study::search::cycle_jobs::CycleSearchError;
 use prone_study::search::pull_terms::{HEAVIEST, PullTermsError};
 use prone_study::search::pulls::PullSearchError;
 use prone_study::search::room::NoRoom;

@@ -18,6 +18,7 @@ pub mod chain_rules;
 pub mod confirm;
 pub mod cycle_cost;
 pub mod cycle_form;
+pub mod cycle_jobs;
 pub mod cycle_rules;
 pub mod cycles;
 pub mod passage;

@@ -17,7 +17,7 @@ use prone_sim::{LoadError, WorldError};
 use crate::crawl::record::RecordError;
 use crate::crawl::{CrawlRunError, CrawlSetupError, RefusedCycle};
 use crate::search::candidates::Refusal;
-use crate::search::cycles::CycleSearchError;
+use crate::search::cycle_jobs::CycleSearchError;
 use crate::search::passage::PassageError;
 use crate::search::pull_cost::PullCostError;
 use crate::search::pull_terms::{AdvanceError, PullTermsError};

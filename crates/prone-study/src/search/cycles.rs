@@ -1,105 +1,25 @@
 //! Searching whole cycles in the locomotion regime, under one ceiling or several.
 
-use std::sync::Arc;
-
-use prone::gait::cycle::{Cycle, TimeScale};
-use prone::regime::Regime;
-use prone::robot::Robot;
+use prone::gait::cycle::Cycle;
 use prone_files::cycle_file;
-use prone_record::experiment::{
-    CycleRulesChoice, CycleSearchExperiment, NamedGait, TextError, Under,
-};
+use prone_record::experiment::{CycleSearchExperiment, TextError, Under};
 use prone_record::frontier::{self, Compared, CycleObjective, Found, Frontier};
 use prone_record::output::Artefacts;
-use prone_record::program::{Program, RobotInfo};
-use prone_record::search::{Search, SearchEnd, SeededRun, Solver};
-use prone_record::search_plan::{CyclePlan, OnePlan, SearchHead, SearchPlan, UnderPlan};
+use prone_record::program::Program;
+use prone_record::search::{Search, SearchEnd, SeededRun};
+use prone_record::search_plan::SearchPlan;
 use prone_record::search_result::SearchResult;
 use prone_report::figures::frontier_figure;
 use prone_sim::LoadedRobot;
-use prone_sim::crawl::CrawlError;
 
 use super::candidates::{Candidates as _, Depth};
-use super::confirm;
-use super::cycle_cost::{CycleAim, CycleCostError, CycleSearch, Merge};
-use super::cycle_rules::CycleRules;
-use super::room::{NoRoom, too_low};
+use super::cycle_cost::CycleSearch;
+use super::cycle_jobs::{self, CycleSearchError};
 use super::run::{Job, SearchError, SearchRun, draw};
 use super::setting::Setting;
-use super::settings::{self, SettingError};
 use super::steering::check_steering;
-use super::trial::{Trial, try_out};
+use super::{confirm, settings};
 use crate::watch::Watch;
-
-/// Why cycles cannot be searched.
-#[derive(Debug, thiserror::Error)]
-pub enum CycleSearchError {
-    /// A cycle cannot be read.
-    #[error(transparent)]
-    Text(#[from] TextError),
-    /// A ceiling stands twice in the list.
-    #[error("{mm} mm is there twice")]
-    CeilingTwice {
-        /// The ceiling, mm.
-        mm: f64,
-    },
-    /// The margin leaves nothing of a ceiling.
-    #[error(transparent)]
-    NoRoom(#[from] NoRoom),
-    /// No gait of the robot fits under a ceiling.
-    #[error("{ceiling_mm} mm is too low for {robot}: {reason}")]
-    TooLow {
-        /// The ceiling, mm.
-        ceiling_mm: f64,
-        /// The robot's name.
-        robot: String,
-        /// What does not fit.
-        reason: String,
-    },
-    /// Only the objectives of heat and peak look at heats with several servos.
-    #[error("{what} goes with the objectives heat and peak only")]
-    HeatUnused {
-        /// `worst_over` or `most_heat`.
-        what: &'static str,
-    },
-    /// [`Watch::stop`] said so.
-    #[error("stopped")]
-    Stopped,
-    /// A setting cannot be made.
-    #[error(transparent)]
-    Setting(#[from] SettingError),
-    /// Cycles have no costs.
-    #[error(transparent)]
-    Costs(#[from] CycleCostError),
-    /// The cycle that heats are compared with cannot be crawled.
-    #[error("{gait}: {source}")]
-    WorstOver {
-        /// As it was called.
-        gait: String,
-        /// Why.
-        source: CrawlError,
-    },
-    /// No cycle to begin with.
-    #[error(
-        "there is no cycle that {robot} can crawl to begin with{}",
-        listed(refused)
-    )]
-    NoCycle {
-        /// The robot's name.
-        robot: String,
-        /// Names of the cycles that were tried, and why they cannot be crawled.
-        refused: Vec<(String, CrawlError)>,
-    },
-}
-
-/// One line a cycle.
-fn listed(refused: &[(String, CrawlError)]) -> String {
-    let lines = refused.iter();
-    let lines: Vec<String> = lines
-        .map(|(cycle, error)| format!("\n  {cycle}: {error}"))
-        .collect();
-    lines.concat()
-}
 
 /// A search of cycles.
 #[derive(Debug)]
@@ -129,86 +49,30 @@ impl CycleRun {
         watch: &dyn Watch,
     ) -> Result<Self, CycleSearchError> {
         let objective = experiment.objective;
-        let from = experiment
-            .from
-            .iter()
-            .map(|it| it.gait.parse(cycle_file::parse));
-        let from: Vec<Cycle> = from.collect::<Result<_, _>>()?;
-        let compared = experiment
-            .compared
-            .iter()
-            .map(|it| it.parse(cycle_file::parse));
-        let compared: Vec<Cycle> = compared.collect::<Result<_, _>>()?;
-        let ceilings = ceilings(&experiment.under);
-        check(experiment, &ceilings, robot.robot())?;
-        let mut searched = settings::for_search(objective, robot)?;
         let mut confirmation = settings::for_confirmation_of(objective, robot)?;
         let steering = settings::for_steering_confirmation(robot)?;
         if experiment.steerable {
-            searched.extend(settings::for_steering(robot)?);
             confirmation.extend(steering.iter().cloned());
         }
-        let searched: Arc<[Setting]> = searched.into();
-        let (merge, asked) = match &experiment.under {
-            Under::Ceilings { .. } => (Merge::Mean, CycleRulesChoice::default()),
-            Under::One {
-                rules, worst_over, ..
-            } => (merge(worst_over.as_ref(), &searched)?, *rules),
-        };
-        let (command, margin_mm) = match &experiment.under {
-            Under::Ceilings { margin_mm, .. } => ("crawl frontier", *margin_mm),
-            Under::One { .. } => ("optimize", 0.0),
-        };
-        let mut head = SearchHead::new(
-            program,
-            command,
-            prone_sim::engine_version(),
-            Solver::AboutTheMiddle,
-            experiment.runs,
-        );
-        let mut jobs = Vec::with_capacity(ceilings.len());
-        for Ceiling { mm, height } in ceilings {
-            if watch.stop() {
-                return Err(CycleSearchError::Stopped);
-            }
-            let base = base(robot, &searched[0], &from, height)?;
-            let rules = usual_rules(objective, height, base, robot.robot());
-            let aim = CycleAim {
-                objective,
-                merge: merge.clone(),
-                rules: asked_rules(&asked, rules),
-            };
-            head.add_base(&base.pull.name, &cycle_file::write(base, ""));
-            jobs.push(Job {
-                ceiling_mm: mm,
-                base: base.pull.name.clone(),
-                candidates: CycleSearch::new(robot.robot(), &searched, aim, base)?,
-            });
-        }
-        let name = match &experiment.under {
-            Under::Ceilings { .. } => None,
+        let compared = experiment.compared.iter();
+        let compared = compared.map(|it| it.parse(cycle_file::parse));
+        let jobs = cycle_jobs::jobs(experiment, robot, watch)?;
+        let (margin_mm, name) = match &experiment.under {
+            Under::Ceilings { margin_mm, .. } => (*margin_mm, None),
             Under::One { name, .. } => {
                 let usual = || format!("best-{}", objective.name());
-                Some(name.clone().unwrap_or_else(usual))
+                (0.0, Some(name.clone().unwrap_or_else(usual)))
             }
         };
-        let plan = CyclePlan {
-            head,
-            objective,
-            steerable: experiment.steerable,
-            under: under_plan(experiment, &jobs),
-            bases: jobs.iter().map(|job| job.base.clone()).collect(),
-            regime: Regime::LOCOMOTION.name.to_owned(),
-            robot: RobotInfo::of(robot.robot(), robot.files()),
-        };
+        let plan = cycle_jobs::plan(experiment, robot, &jobs, program);
         Ok(Self {
             plan: SearchPlan::Cycle(Box::new(plan)),
             objective,
             margin_mm,
-            jobs,
+            jobs: jobs.into_iter().map(|(job, _)| job).collect(),
             confirmation,
             steering,
-            compared,
+            compared: compared.collect::<Result<_, TextError>>()?,
             name,
         })
     }
@@ -367,187 +231,6 @@ impl SearchRun for CycleRun {
         let artefacts = self.files(&frontier, &cycles, searches)?;
         Ok((SearchResult::Cycles(Box::new(frontier)), artefacts))
     }
-}
-
-/// A ceiling, mm, where there is one, and the height below which everything stays, m.
-#[derive(Debug, Clone, Copy)]
-struct Ceiling {
-    mm: Option<f64>,
-    height: f64,
-}
-
-fn ceilings(under: &Under) -> Vec<Ceiling> {
-    match under {
-        Under::Ceilings {
-            ceilings_mm,
-            margin_mm,
-        } => {
-            let ceiling = |&mm: &f64| Ceiling {
-                mm: Some(mm),
-                height: (mm - margin_mm) * 1e-3,
-            };
-            ceilings_mm.iter().map(ceiling).collect()
-        }
-        Under::One { rules, .. } => vec![Ceiling {
-            mm: rules.ceiling_mm,
-            height: rules.ceiling_mm.map_or(f64::INFINITY, |mm| mm * 1e-3),
-        }],
-    }
-}
-
-/// What can be said of a search before anything is crawled.
-fn check(
-    experiment: &CycleSearchExperiment,
-    ceilings: &[Ceiling],
-    robot: &Robot,
-) -> Result<(), CycleSearchError> {
-    match &experiment.under {
-        Under::Ceilings {
-            ceilings_mm,
-            margin_mm,
-        } => {
-            for (index, mm) in ceilings_mm.iter().enumerate() {
-                let same = |other: &f64| other.total_cmp(mm).is_eq();
-                if ceilings_mm[..index].iter().any(same) {
-                    return Err(CycleSearchError::CeilingTwice { mm: *mm });
-                }
-                NoRoom::check(*mm, *margin_mm)?;
-            }
-        }
-        Under::One {
-            rules, worst_over, ..
-        } => {
-            let objective = experiment.objective;
-            let several = matches!(objective, CycleObjective::Heat | CycleObjective::Peak);
-            let heats = [
-                ("worst_over", worst_over.is_some()),
-                ("most_heat", rules.most_heat.is_some()),
-            ];
-            let unused = heats.iter().find(|(_, asked)| *asked && !several);
-            if let Some((what, _)) = unused {
-                return Err(CycleSearchError::HeatUnused { what });
-            }
-        }
-    }
-    for ceiling in ceilings {
-        if let (Some(ceiling_mm), Some(reason)) = (ceiling.mm, too_low(robot, ceiling.height)) {
-            return Err(CycleSearchError::TooLow {
-                ceiling_mm,
-                robot: robot.name.clone(),
-                reason,
-            });
-        }
-    }
-    Ok(())
-}
-
-fn merge(worst_over: Option<&NamedGait>, searched: &[Setting]) -> Result<Merge, CycleSearchError> {
-    let Some(named) = worst_over else {
-        return Ok(Merge::Mean);
-    };
-    let merge = Merge::worst_over(searched, &named.gait.parse(cycle_file::parse)?);
-    merge.map_err(|source| CycleSearchError::WorstOver {
-        gait: named.called.clone(),
-        source,
-    })
-}
-
-/// The rules that were asked for, and the usual ones where none was.
-fn asked_rules(asked: &CycleRulesChoice, usual: CycleRules) -> CycleRules {
-    let millimetres = asked.least_advance_mm.map(|mm| mm * 1e-3);
-    let share = asked.body_share_percent.map(|percent| percent / 100.0);
-    let demanded = asked.demanded_shoulder_nm;
-    CycleRules {
-        advance: millimetres.unwrap_or(usual.advance),
-        demanded_shoulder: demanded.unwrap_or(usual.demanded_shoulder),
-        body_share: share.unwrap_or(usual.body_share),
-        heat: asked.most_heat.unwrap_or(usual.heat),
-        ..usual
-    }
-}
-
-fn under_plan(experiment: &CycleSearchExperiment, jobs: &[Job<CycleSearch>]) -> UnderPlan {
-    match &experiment.under {
-        Under::Ceilings {
-            ceilings_mm,
-            margin_mm,
-        } => UnderPlan::Frontier {
-            ceilings_mm: ceilings_mm.clone(),
-            margin_mm: *margin_mm,
-            from: experiment.from.iter().map(|it| it.called.clone()).collect(),
-        },
-        Under::One {
-            rules,
-            worst_over,
-            name,
-        } => {
-            let job = jobs.first();
-            let advance = job.map(|job| job.candidates.rules().advance * 1e3);
-            UnderPlan::One(Box::new(OnePlan {
-                source: "cycle".to_owned(),
-                rules: CycleRulesChoice {
-                    least_advance_mm: advance,
-                    ..*rules
-                },
-                worst_over: worst_over.as_ref().map(|it| it.called.clone()),
-                from: job.map_or_else(String::new, |job| job.base.clone()),
-                name: name.clone(),
-            }))
-        }
-    }
-}
-
-/// The usual rules of a search below a height, m: for heat and peak the robot's least advance, else
-/// no slower than the cycle that it is searched about.
-pub fn usual_rules(
-    objective: CycleObjective,
-    height: f64,
-    base: &Cycle,
-    robot: &Robot,
-) -> CycleRules {
-    let free = CycleRules {
-        ceiling: height,
-        ..CycleRules::FREE
-    };
-    match objective {
-        CycleObjective::Heat | CycleObjective::Peak => CycleRules {
-            advance: robot.search.least_advance,
-            ..free
-        },
-        CycleObjective::Advance | CycleObjective::Speed => CycleRules {
-            seconds: base.duration(TimeScale::ONE),
-            ..free
-        },
-    }
-}
-
-/// The base of a search under a height, m: of the cycles that stay below it, the one that advances
-/// most in the first of the settings; where none does, the lowest.
-///
-/// # Errors
-/// [`CycleSearchError::NoCycle`].
-pub fn base<'c>(
-    robot: &LoadedRobot,
-    setting: &Setting,
-    cycles: &'c [Cycle],
-    height: f64,
-) -> Result<&'c Cycle, CycleSearchError> {
-    let mut tried: Vec<(&Cycle, Trial)> = Vec::with_capacity(cycles.len());
-    let mut refused = Vec::new();
-    for cycle in cycles {
-        match try_out(setting, cycle) {
-            Ok(trial) => tried.push((cycle, trial)),
-            Err(error) => refused.push((cycle.pull.name.clone(), error)),
-        }
-    }
-    let below = tried.iter().filter(|(_, trial)| trial.top.0 <= height);
-    let farthest = below.max_by(|a, b| a.1.advance.total_cmp(&b.1.advance));
-    let lowest = || tried.iter().min_by(|a, b| a.1.top.0.total_cmp(&b.1.top.0));
-    let chosen = farthest.or_else(lowest).map(|(cycle, _)| *cycle);
-    chosen.ok_or_else(|| CycleSearchError::NoCycle {
-        robot: robot.robot().name.clone(),
-        refused,
-    })
 }
 
 #[cfg(test)]

@@ -14,7 +14,7 @@ use serde::Serialize;
 use super::candidates::Searched;
 use super::candidates::{Candidates as _, Depth};
 use super::cycle_cost::{CycleAim, CycleSearch, Merge};
-use super::cycles::{self, CycleSearchError};
+use super::cycle_jobs::{self, CycleSearchError};
 use super::room::too_low;
 use super::run::SearchError;
 use super::setting::Setting;
@@ -190,11 +190,11 @@ impl Passage {
         let objective = CycleObjective::Advance;
         let settings = settings::for_search(objective, robot);
         let settings: Arc<[Setting]> = settings.map_err(CycleSearchError::from)?.into();
-        let base = cycles::base(robot, &settings[0], cycles, height)?;
+        let base = cycle_jobs::base(robot, &settings[0], cycles, height)?;
         let aim = CycleAim {
             objective,
             merge: Merge::Mean,
-            rules: cycles::usual_rules(objective, height, base, robot.robot()),
+            rules: cycle_jobs::usual_rules(objective, height, base, robot.robot()),
         };
         let searched = CycleSearch::new(robot.robot(), &settings, aim, base);
         let searched = searched.map_err(CycleSearchError::from)?;

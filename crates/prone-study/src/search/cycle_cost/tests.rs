@@ -2,7 +2,7 @@ use prone::robot::BodyPart;
 use prone_files::shipped;
 use prone_sim::{LoadedRobot, RobotFiles};
 
-use super::super::cycles::usual_rules;
+use super::super::cycle_jobs::usual_rules;
 use super::super::settings;
 use super::*;
 use prone_record::frontier::SettingKind;

@@ -1,10 +1,15 @@
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use prone_files::shipped;
 use prone_optim::Threads;
+use prone_record::search::Solver;
 use prone_sim::RobotFiles;
 
 use super::super::candidates::Searched;
+use super::super::cycle_cost::{CycleAim, Merge};
+use super::super::cycle_jobs::base;
+use super::super::cycle_rules::CycleRules;
 use super::super::setting::Role;
 use super::super::settings::{for_advance, for_steering, for_steering_confirmation};
 use super::super::steering::NotSteered;
