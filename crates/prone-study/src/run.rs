@@ -6,10 +6,11 @@
 
 mod error;
 mod search;
+mod torque_map;
 
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use serde_json::json;
@@ -20,7 +21,7 @@ use prone::regime::Regime;
 use prone_files::{cycle_file, gait_file};
 use prone_record::crawl_summary::CrawlSummary;
 use prone_record::experiment::{
-    CrawlExperiment, Detail, Experiment, PassageExperiment, PullExperiment, TorqueMapExperiment,
+    CrawlExperiment, Detail, Experiment, PassageExperiment, PullExperiment,
 };
 use prone_record::lock::Lock;
 use prone_record::output::{self, Artefacts};
@@ -41,12 +42,11 @@ use crate::pulls::pull_record;
 use crate::search::passage::Passage;
 use crate::search::room::NoRoom;
 use crate::search::settings;
-use crate::torque_map::build::{self, BuildError, Built, Summary};
-use crate::torque_map::{Job, NodeGrid};
 use crate::watch::Watch;
 
 pub use error::RunError;
 pub use search::CostOutcome;
+pub use torque_map::MapOutcome;
 
 /// The range that a joint swept on a robot, rad, where one is published.
 pub type JointRanges = Arc<dyn Fn(&str) -> Option<(f64, f64)> + Send + Sync>;
@@ -117,19 +117,6 @@ pub struct PassageOutcome {
     pub passage: Passage,
     /// The fastest cycle that fits, where there is one.
     pub cycle: Option<Cycle>,
-}
-
-/// A torque map.
-#[derive(Debug)]
-pub struct MapOutcome {
-    /// Its file.
-    pub text: String,
-    /// What is in it.
-    pub summary: Summary,
-    /// Wall time.
-    pub wall: Duration,
-    /// Worker threads.
-    pub threads: usize,
 }
 
 /// Runs an experiment on all cores, in memory.
@@ -325,57 +312,6 @@ impl Session {
         Ok(PassageOutcome { passage, cycle })
     }
 
-    /// Measures a torque map; what is measured is kept beside its place.
-    fn torque_map(
-        &self,
-        experiment: &TorqueMapExperiment,
-        watch: &dyn Watch,
-    ) -> Result<MapOutcome, RunError> {
-        let grid = NodeGrid::new(experiment.step_deg, experiment.theta4_max_deg)?;
-        let robot = LoadedRobot::load(experiment.robot.files()?)?;
-        let job = Job::new(&robot, experiment.source, grid, &self.program)?;
-        let place = self.place.as_ref();
-        if let Some(place) = place {
-            single_file::check_place(&place.path).map_err(RunError::PlaceOfFile)?;
-        }
-        let pool = self.pool()?;
-        let started = Instant::now();
-        let kept = place.map(|place| (&*place.path, place.opening));
-        let built = pool.install(|| build::run(&job, kept, watch));
-        let Built {
-            text,
-            summary,
-            journal,
-        } = built.map_err(stopped_map)?;
-        let wall = started.elapsed();
-        let path = journal.as_ref().map(|journal| journal.path().to_owned());
-        let published = uninterrupted(watch, || {
-            if let Some(place) = place {
-                let written = single_file::write(&place.path, text.as_bytes());
-                written.map_err(|source| RunError::PublishFile {
-                    source,
-                    journal: path.clone(),
-                })?;
-            }
-            // Only then the journal goes.
-            journal.map_or(Ok(()), |journal| Ok(journal.remove()?))
-        });
-        published.map_err(|error| match (error, path) {
-            (RunError::Stopped, Some(journal)) => RunError::StoppedMap {
-                done: summary.rows,
-                rows: summary.rows,
-                journal,
-            },
-            (error, _) => error,
-        })?;
-        Ok(MapOutcome {
-            text,
-            summary,
-            wall,
-            threads: pool.current_num_threads(),
-        })
-    }
-
     fn pull(
         &self,
         experiment: &PullExperiment,
@@ -425,22 +361,6 @@ fn uninterrupted(
         done
     } else {
         Err(RunError::Stopped)
-    }
-}
-
-fn stopped_map(error: BuildError) -> RunError {
-    match error {
-        BuildError::Stopped {
-            kept,
-            rows,
-            journal: Some(journal),
-        } if kept > 0 => RunError::StoppedMap {
-            done: kept,
-            rows,
-            journal,
-        },
-        BuildError::Stopped { .. } => RunError::Stopped,
-        other => RunError::Build(Box::new(other)),
     }
 }
 
