@@ -123,6 +123,9 @@ fn of_crawl(error: CrawlSetupError) -> Failure {
             "--turn-deg-per-cycle {degrees} is outside {} to {limit_deg}, by which {gait} can be turned",
             0.0 - limit_deg
         )),
+        CrawlSetupError::CannotTurn { gait, .. } => Failure::Input(anyhow!(
+            "--turn-deg-per-cycle needs a cycle that can turn; {gait} has no [steering]"
+        )),
         CrawlSetupError::NoSteering { gait } => Failure::Input(anyhow!(
             "--heading-hold and --heading-deg need a cycle that can turn; {gait} has no [steering]"
         )),

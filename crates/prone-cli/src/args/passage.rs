@@ -27,7 +27,7 @@ pub(crate) struct UnderArgs {
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub(crate) seed: Option<u64>,
     /// Most evaluations of that search
-    #[arg(long, value_name = "N", default_value = "800", value_parser = clap::value_parser!(u64).range(16..=10_000_000))]
+    #[arg(long, value_name = "N", default_value = "800", requires = "seed", value_parser = clap::value_parser!(u64).range(16..=10_000_000))]
     pub(crate) budget: u64,
     /// Write the answer's cycle to a file
     #[arg(long, value_name = "FILE")]

@@ -37,7 +37,7 @@ pub fn figure(frontier: &Frontier) -> Result<Option<Figure>, FigureError> {
         title: "What is reached under a ceiling".to_owned(),
         caption: format!(
             "Crawls searched for the {} under ceilings of several heights, {} mm kept free. \
-             Ours, simulated: friction 0.7, the maker's effort and joint limits on, 2.5 ms steps. \
+             Ours, simulated: friction 0.7, the manufacturer's effort and joint limits on, 2.5 ms steps. \
              A search holds where, without touching the ceiling, it keeps 80 % of its advance at \
              friction 0.4 and 1, 0.8 and 1.7 times its duration and with 1 ms steps.",
             match frontier.objective {

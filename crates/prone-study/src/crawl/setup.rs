@@ -111,6 +111,14 @@ pub enum CrawlSetupError {
         /// The cycle's name.
         gait: String,
     },
+    /// A cycle that cannot turn follows no turn command.
+    #[error("a turn command of {degrees}° needs a cycle that can turn; {gait} has no [steering]")]
+    CannotTurn {
+        /// What was asked for, degrees.
+        degrees: f64,
+        /// The cycle's name.
+        gait: String,
+    },
     /// A cycle that cannot turn cannot keep a heading.
     #[error("keeping a heading needs a cycle that can turn; {gait} has no [steering]")]
     NoSteering {
@@ -371,6 +379,10 @@ fn steering(choice: SteeringChoice, gait: &GaitSource) -> Result<Steering, Crawl
         })),
         SteeringChoice::None => Ok(Steering::Straight { turn: 0.0 }),
         SteeringChoice::Constant { degrees } => {
+            if limit.is_none() && degrees.abs() > 0.0 {
+                let gait = name();
+                return Err(CrawlSetupError::CannotTurn { degrees, gait });
+            }
             // Nine decimals: finer than what anyone types, coarser than rounding.
             let limit_deg = limit.unwrap_or_default().to_degrees();
             let limit_deg = (limit_deg * 1e9).round() / 1e9;
