@@ -161,9 +161,6 @@ impl CompiledRobot {
 
     /// Reads the compiled robot that lies beside its sources, under the name [`FILE_NAME`], and
     /// refuses it if they are no longer those that it was compiled from.
-    ///
-    /// # Errors
-    /// [`CompiledRobotError`].
     pub fn read_beside(sources: &RobotFiles) -> Result<Self, CompiledRobotError> {
         let path = Path::new(&sources.folder).join(FILE_NAME);
         let compiled = Self::read(&path)?;

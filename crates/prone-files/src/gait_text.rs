@@ -19,9 +19,6 @@ pub struct GaitText {
 
 impl GaitText {
     /// Reads a gait's file.
-    ///
-    /// # Errors
-    /// [`ReadError`].
     pub fn read(path: &Path) -> Result<Self, ReadError> {
         Ok(Self {
             file: path.display().to_string(),

@@ -114,9 +114,6 @@ impl RobotFiles {
 
     /// The robot that a user names: by a folder, as [`RobotFiles::read`] takes it, or by the name of
     /// one that ships, as [`shipped::robot`] takes it. A folder goes first.
-    ///
-    /// # Errors
-    /// [`RobotFolderError`].
     pub fn named(name: &Path) -> Result<Self, RobotFolderError> {
         if name.exists() {
             return Self::read(name);
@@ -130,9 +127,6 @@ impl RobotFiles {
     }
 
     /// Reads the robot of a folder, or the default version of a family's folder.
-    ///
-    /// # Errors
-    /// [`RobotFolderError`].
     pub fn read(folder: &Path) -> Result<Self, RobotFolderError> {
         let family_file = folder.join(FAMILY_FILE);
         if !family_file.exists() {

@@ -21,9 +21,6 @@ pub struct ReadError {
 }
 
 /// Reads as [`read`] does, with an error that names the file.
-///
-/// # Errors
-/// [`ReadError`].
 pub fn read_named(path: &Path) -> Result<String, ReadError> {
     read(path).map_err(|source| ReadError {
         path: path.to_owned(),

@@ -38,9 +38,6 @@ const LAST: [Figure; 5] = [
 ];
 
 /// `cycles.csv`.
-///
-/// # Errors
-/// [`csv::Error`], which writing to memory does not produce.
 pub fn cycles(summary: &CrawlSummary) -> Result<Vec<u8>, csv::Error> {
     let mut header = vec!["cycle".to_owned()];
     header.extend(FIRST.map(|(name, _)| name.to_owned()));
@@ -81,9 +78,6 @@ pub struct Instant<'a> {
 }
 
 /// `rows.csv`; yaw and what is lateral are seen from `start`.
-///
-/// # Errors
-/// [`csv::Error`], which writing to memory does not produce.
 pub fn rows(
     robot: &Robot,
     start: Bearing,
@@ -128,9 +122,6 @@ pub fn rows(
 }
 
 /// `contacts.csv`.
-///
-/// # Errors
-/// [`csv::Error`], which writing to memory does not produce.
 pub fn contacts(
     robot: &Robot,
     obstacles: &[Obstacle],
@@ -158,9 +149,6 @@ pub fn contacts(
 }
 
 /// `plate-contacts.csv`.
-///
-/// # Errors
-/// [`csv::Error`], which writing to memory does not produce.
 pub fn plate_contacts(summary: &CrawlSummary) -> Result<Vec<u8>, csv::Error> {
     let rows = summary.contacts.iter().map(|contact| {
         [

@@ -178,9 +178,6 @@ impl ConfirmedSetting {
 }
 
 /// `frontier.csv`: one row per ceiling, seed and setting.
-///
-/// # Errors
-/// [`csv::Error`], which writing to memory does not produce.
 pub fn csv<'f>(frontier: &'f Frontier) -> Result<Vec<u8>, csv::Error> {
     let settings = |found: &'f Found| {
         let settings = found.confirmed.settings.iter();
@@ -216,9 +213,6 @@ pub fn csv<'f>(frontier: &'f Frontier) -> Result<Vec<u8>, csv::Error> {
 }
 
 /// `history.csv`: one row per generation of each search, in the order of ceilings.
-///
-/// # Errors
-/// [`csv::Error`], which writing to memory does not produce.
 pub fn history_csv<'s>(
     ceilings_mm: &'s [Option<f64>],
     searches: &'s [Search],

@@ -206,9 +206,6 @@ impl Row {
 }
 
 /// `history.csv`: one row per generation of each run.
-///
-/// # Errors
-/// [`csv::Error`], which writing to memory does not produce.
 pub fn history_csv<'s>(search: &'s Search) -> Result<Vec<u8>, csv::Error> {
     let generations = |run: &'s SeededRun| run.history.0.iter().map(move |it| (run.seed, it));
     columns(
@@ -240,9 +237,6 @@ pub fn history_csv<'s>(search: &'s Search) -> Result<Vec<u8>, csv::Error> {
 }
 
 /// `confirmation.csv`: one row per simulated pull.
-///
-/// # Errors
-/// [`csv::Error`], which writing to memory does not produce.
 pub fn confirmation_csv(confirmation: &Confirmation) -> Result<Vec<u8>, csv::Error> {
     columns(
         &confirmation.rows,

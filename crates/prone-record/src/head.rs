@@ -95,9 +95,6 @@ impl Head {
     }
 
     /// Reads the head of a result folder of this version of the program, and the whole `run.json`.
-    ///
-    /// # Errors
-    /// [`HeadError`].
     pub fn read(folder: &Path) -> Result<(Self, Value), HeadError> {
         let not = |reason: &str| HeadError::NotAResult {
             folder: folder.display().to_string(),

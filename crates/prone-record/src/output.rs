@@ -96,9 +96,6 @@ pub enum OutputError {
 
 /// Checks that a result can be put at `folder`, and removes what killed runs left beside it.
 /// Nothing is made, not even the folders above.
-///
-/// # Errors
-/// [`OutputError`].
 pub fn check(folder: &Path) -> Result<(), OutputError> {
     let target = Target::resolve(folder)?;
     if earlier::standing(&target.folder)? == Standing::Replaceable {

@@ -108,9 +108,6 @@ pub struct RecordedContact {
 impl Recorded {
     /// Reads a record folder that this version of the program has written. `contacts.csv` may be
     /// missing, which is a cut.
-    ///
-    /// # Errors
-    /// [`ReadError`].
     pub fn read(folder: &Path) -> Result<Self, ReadError> {
         let run = RecordInfo::read(folder)?;
         let model = model::Model::read(folder)?;

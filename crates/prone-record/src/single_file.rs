@@ -21,18 +21,12 @@ pub struct WriteError {
 }
 
 /// Writes to `path`: a regular file whole or not at all, a device or a pipe directly.
-///
-/// # Errors
-/// [`WriteError`].
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     put(path, bytes).map_err(named(path))
 }
 
 /// Whether a file that takes long to make can be put at `path`, whole: only a regular file, which may
 /// be written, or nothing may stand there.
-///
-/// # Errors
-/// [`WriteError`].
 pub fn check_place(path: &Path) -> Result<(), WriteError> {
     look(path).map_err(named(path))
 }

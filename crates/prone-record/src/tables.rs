@@ -11,9 +11,6 @@ pub fn torque_file_name(pull: &PullRecord) -> String {
 }
 
 /// One pull, one row per control step.
-///
-/// # Errors
-/// [`csv::Error`], which writing to memory does not produce.
 pub fn torques(pull: &PullRecord) -> Result<Vec<u8>, csv::Error> {
     let mut header = vec!["time_s".to_owned(), "cycle_percent".to_owned()];
     header.extend(JOINTS.map(|joint| format!("{joint}_nm")));
@@ -36,9 +33,6 @@ pub fn torques(pull: &PullRecord) -> Result<Vec<u8>, csv::Error> {
 }
 
 /// `chains.csv`: the planned chain of each gait, one row per instant.
-///
-/// # Errors
-/// [`csv::Error`], which writing to memory does not produce.
 pub fn chains(chains: &[ChainRecord]) -> Result<Vec<u8>, csv::Error> {
     let first = ["gait", "s", "theta3_deg", "theta4_deg", "alpha_deg"];
     let points = CHAIN_POINTS.map(|point| [format!("{point}_x_mm"), format!("{point}_z_mm")]);
@@ -58,9 +52,6 @@ pub fn chains(chains: &[ChainRecord]) -> Result<Vec<u8>, csv::Error> {
 }
 
 /// `costs.csv`.
-///
-/// # Errors
-/// [`csv::Error`], which writing to memory does not produce.
 pub fn costs(costs: &[CostRecord]) -> Result<Vec<u8>, csv::Error> {
     columns(
         costs,
@@ -97,9 +88,6 @@ pub fn as_written(value: f64, decimals: usize) -> f64 {
 pub type Cell<'c, R> = &'c dyn Fn(&R) -> String;
 
 /// A table of columns, each with its name and what stands in it, as a file.
-///
-/// # Errors
-/// [`csv::Error`], which writing to memory does not produce.
 pub fn columns<R, const N: usize>(
     rows: impl IntoIterator<Item = R>,
     columns: [(&str, Cell<'_, R>); N],
@@ -110,9 +98,6 @@ pub fn columns<R, const N: usize>(
 }
 
 /// A table of a header and rows as a file.
-///
-/// # Errors
-/// [`csv::Error`], which writing to memory does not produce.
 pub fn file<C: AsRef<[u8]>, R: IntoIterator<Item = C>>(
     header: impl IntoIterator<Item: AsRef<[u8]>>,
     rows: impl IntoIterator<Item = R>,

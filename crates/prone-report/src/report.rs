@@ -115,9 +115,6 @@ impl Report {
     /// Reads result folders and makes the report of them, held against a publication. A folder that is
     /// named twice, or that is named and lies within another one, is taken once. Drawings are made on the
     /// current rayon pool.
-    ///
-    /// # Errors
-    /// [`ReportError`].
     pub fn from_folders(
         sources: &[Source],
         publication: &dyn Publication,
@@ -164,9 +161,6 @@ impl Report {
     }
 
     /// The report of a result that is not published yet: of the files that it will have.
-    ///
-    /// # Errors
-    /// [`ReportError`].
     pub fn from_artefacts(
         name: &str,
         artefacts: &Artefacts,

@@ -44,9 +44,6 @@ pub struct Frames {
 }
 
 /// Takes the pictures from a camera that stays where it is, so that the advance shows.
-///
-/// # Errors
-/// [`FramesError`].
 pub fn of(
     world: &World,
     number: &'static str,
@@ -91,9 +88,6 @@ pub fn of(
 }
 
 /// Figure 22: the robot before a pull.
-///
-/// # Errors
-/// [`FramesError`].
 pub fn start(
     world: &World,
     gait: &str,
@@ -154,9 +148,6 @@ pub(crate) fn stacked(
 }
 
 /// One larger picture, for a title page.
-///
-/// # Errors
-/// [`FramesError`].
 pub fn cover(world: &World, snapshot: &Snapshot) -> Result<Vec<u8>, FramesError> {
     Ok(from_the_right(world, snapshot).png()?)
 }

@@ -68,9 +68,6 @@ pub struct SheetRow {
 }
 
 /// Plans a gait within the manufacturer's limits.
-///
-/// # Errors
-/// [`TrajectoryError`].
 pub fn of(
     robot: &Robot,
     gait: &Gait,
@@ -189,9 +186,6 @@ fn fastest(robot: &Robot, ids: &[JointId], rows: &[SheetRow]) -> (String, f64) {
 
 impl GaitSheet {
     /// The instants as CSV.
-    ///
-    /// # Errors
-    /// [`csv::Error`], which writing to memory does not produce.
     pub fn csv(&self) -> Result<Vec<u8>, csv::Error> {
         let mut header = vec!["cycle_percent".to_owned(), "time_s".to_owned()];
         let angles = ["theta1", "theta2", "theta3", "theta4", "theta5", "alpha"];

@@ -120,9 +120,6 @@ pub struct PassageOutcome {
 }
 
 /// Runs an experiment on all cores, in memory.
-///
-/// # Errors
-/// [`RunError`].
 pub fn run(experiment: &Experiment, watch: &dyn Watch) -> Result<Outcome, RunError> {
     Session::default().run(experiment, watch)
 }
@@ -143,9 +140,6 @@ impl Default for Session {
 
 impl Session {
     /// Runs an experiment and puts its result in place.
-    ///
-    /// # Errors
-    /// [`RunError`].
     pub fn run(&self, experiment: &Experiment, watch: &dyn Watch) -> Result<Outcome, RunError> {
         Ok(match experiment {
             Experiment::Pull(it) => Outcome::Pull(Box::new(self.pull(it, watch)?)),

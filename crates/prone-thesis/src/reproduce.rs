@@ -191,9 +191,6 @@ struct Study<'a> {
 }
 
 /// Reproduces the study and puts the result in its place.
-///
-/// # Errors
-/// [`ReproduceError`].
 pub fn run(
     experiment: &ReproduceExperiment,
     session: &Session,

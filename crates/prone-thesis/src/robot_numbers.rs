@@ -53,9 +53,6 @@ const TRUNK: usize = 3;
 
 impl RobotNumbers {
     /// Of a robot and the gaits of a study.
-    ///
-    /// # Errors
-    /// [`NumbersError`].
     pub fn new(
         robot: &Robot,
         gaits: &[Gait],

@@ -5,9 +5,6 @@ use prone_record::tables::{columns, maybe, number};
 use crate::agreement::Agreement;
 
 /// `agreement.csv`.
-///
-/// # Errors
-/// [`csv::Error`], which writing to memory does not produce.
 pub(crate) fn agreement(agreement: &[Agreement]) -> Result<Vec<u8>, csv::Error> {
     columns(
         agreement,

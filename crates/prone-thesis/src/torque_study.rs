@@ -90,9 +90,6 @@ impl Job {
 }
 
 /// Runs the study on the current rayon pool.
-///
-/// # Errors
-/// [`StudyError`].
 pub fn run(world: &World, plan: &Plan, watch: &dyn Watch) -> Result<TorqueStudy, StudyError> {
     let showcase = plan.showcase;
     let jobs = jobs(plan);

@@ -79,9 +79,6 @@ impl RobotText {
 
     /// The robot's files, to be loaded. Its family's gaits are not among them: an experiment names all
     /// gaits that it needs.
-    ///
-    /// # Errors
-    /// [`ChangedText`].
     pub fn files(&self) -> Result<RobotFiles, ChangedText> {
         let files = RobotFiles {
             folder: self.folder.clone(),
@@ -112,18 +109,12 @@ impl TextFile {
     }
 
     /// The text, if it is the one that the hash is of.
-    ///
-    /// # Errors
-    /// [`ChangedText`].
     pub fn checked(&self) -> Result<&str, ChangedText> {
         same(&self.file, &self.sha256, text_file::sha256(&[&self.text]))?;
         Ok(&self.text)
     }
 
     /// What stands in the text, by a parser of its format, which takes file and text.
-    ///
-    /// # Errors
-    /// [`TextError`].
     pub fn parse<T>(
         &self,
         parser: impl FnOnce(&str, &str) -> Result<T, FileError>,

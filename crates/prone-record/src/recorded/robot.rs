@@ -20,9 +20,6 @@ pub struct RecordedModel {
 
 impl RecordedModel {
     /// Reads `model.json` of a record folder.
-    ///
-    /// # Errors
-    /// [`ReadError`].
     pub fn read(folder: &Path) -> Result<Self, ReadError> {
         let model = Model::read(folder)?;
         Ok(Self {
@@ -33,9 +30,6 @@ impl RecordedModel {
 }
 
 /// Reads the compiled robot of a record folder, which must be the one that `run` names.
-///
-/// # Errors
-/// [`ReadError`].
 pub fn compiled_robot(folder: &Path, run: &RecordInfo) -> Result<CompiledRobot, ReadError> {
     let file = folder.join(ROBOT_FILE).display().to_string();
     let compiled = CompiledRobot::parse(&file, &text(folder, ROBOT_FILE)?)?;

@@ -18,9 +18,6 @@ const LONGEST_STEP_S: f64 = 10.0;
 
 impl RecordInfo {
     /// Reads `run.json` of a record that this version of the program has written.
-    ///
-    /// # Errors
-    /// [`ReadError`].
     pub fn read(folder: &Path) -> Result<Self, ReadError> {
         let (head, run) = Head::read(folder)?;
         Self::from_json(folder, head, &run)

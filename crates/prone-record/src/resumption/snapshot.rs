@@ -39,9 +39,6 @@ pub enum Earlier<S> {
 
 impl<S: Serialize + DeserializeOwned> Snapshot<S> {
     /// Locks the unfinished work of a result and reads what is kept of it; nothing is written yet.
-    ///
-    /// # Errors
-    /// [`ResumptionError`].
     pub fn open(
         work: Work,
         result: &Path,

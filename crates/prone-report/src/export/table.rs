@@ -5,9 +5,6 @@ use prone_record::tables::{file, maybe, number};
 
 /// Makes the table: instants in their order, in each the joints in the robot's order;
 /// the cell of what was not recorded is empty.
-///
-/// # Errors
-/// [`csv::Error`], which writing to memory does not produce.
 pub fn csv(record: &Recorded) -> Result<Vec<u8>, csv::Error> {
     let columns = "time_s,joint,command_rad,position_rad,velocity_rad_s,effort_nm";
     let rows = record.rows.iter().zip(record.joint_speeds());

@@ -36,9 +36,6 @@ pub enum UrdfError {
 }
 
 /// Writes the robot of a record.
-///
-/// # Errors
-/// [`UrdfError`].
 pub fn from_record(robot: &Robot, model: &RecordedModel) -> Result<String, UrdfError> {
     let names = robot.bodies.iter().map(|body| &body.name);
     if !names.eq(model.bodies.iter().map(|body| &body.name)) {

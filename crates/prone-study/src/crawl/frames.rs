@@ -51,9 +51,6 @@ const DISTANCE: f64 = 2.5;
 const RISE: f64 = 0.13;
 
 /// All pictures of a crawl with rows.
-///
-/// # Errors
-/// [`FramesError`].
 pub fn all(world: &World, gait: &str, crawl: &Crawl) -> Result<Vec<Frames>, FramesError> {
     let mut pictures: Vec<Frames> = start(world, gait, crawl)?.into_iter().collect();
     pictures.extend(on_its_way(world, gait, crawl)?);
@@ -61,9 +58,6 @@ pub fn all(world: &World, gait: &str, crawl: &Crawl) -> Result<Vec<Frames>, Fram
 }
 
 /// The pictures of a crawl with rows but that of its start.
-///
-/// # Errors
-/// [`FramesError`].
 pub fn on_its_way(world: &World, gait: &str, crawl: &Crawl) -> Result<Vec<Frames>, FramesError> {
     let pictures = [under(world, gait, crawl)?, sequence(world, gait, crawl)?];
     Ok(pictures.into_iter().flatten().collect())

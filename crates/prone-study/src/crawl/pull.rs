@@ -35,9 +35,6 @@ pub struct PullRecording<'a> {
 }
 
 /// Makes `run.json`, `model.json`, `rows.csv`, `contacts.csv` and `robot.compiled.json`.
-///
-/// # Errors
-/// [`RecordError`].
 pub fn files(recording: &PullRecording<'_>, program: &Program) -> Result<Artefacts, RecordError> {
     let (robot, world, pull) = (recording.robot, recording.world, recording.pull);
     let options = PullOptions {

@@ -61,9 +61,6 @@ pub struct Recording<'a> {
 /// Makes every file but `timing.json`; all the same for the same input. Pictures are taken on the
 /// current rayon pool. `published` is the range that a joint swept on a robot, rad, where one is
 /// published, for the figure of angles.
-///
-/// # Errors
-/// [`RecordError`].
 pub fn files(
     recording: &Recording<'_>,
     program: &Program,
@@ -90,9 +87,6 @@ pub fn files(
 }
 
 /// All files but the figures.
-///
-/// # Errors
-/// [`RecordError`].
 pub fn numbers(
     recording: &Recording<'_>,
     command: Command,

@@ -178,9 +178,6 @@ enum Steering {
 
 impl GaitSource {
     /// Parses a cycle's text.
-    ///
-    /// # Errors
-    /// [`TextError`].
     pub fn from_text(gait: &GaitText) -> Result<Self, TextError> {
         Ok(Self {
             cycle: gait.parse(cycle_file::parse)?,
@@ -211,9 +208,6 @@ impl GaitSource {
 
 impl CrawlSetup {
     /// Loads and checks a crawl; nothing is simulated yet.
-    ///
-    /// # Errors
-    /// [`CrawlSetupError`].
     pub fn new(experiment: &CrawlExperiment) -> Result<Self, CrawlSetupError> {
         check(experiment)?;
         let robot = LoadedRobot::load(experiment.robot.files()?)?;
@@ -284,9 +278,6 @@ impl CrawlSetup {
     }
 
     /// Simulates the crawl, stopped at once when `stopped` says so.
-    ///
-    /// # Errors
-    /// [`CrawlRunError`].
     pub fn run(&self, stopped: &dyn Fn() -> bool) -> Result<Crawl, CrawlRunError> {
         let plan = CrawlPlan {
             cycles: self.cycles(),

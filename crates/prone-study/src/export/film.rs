@@ -136,9 +136,6 @@ pub trait Reel {
 
 impl<'a> Film<'a> {
     /// Prepares a shot.
-    ///
-    /// # Errors
-    /// [`FilmError`].
     pub fn new(world: &'a World, record: &'a Recorded, shot: Shot) -> Result<Self, FilmError> {
         check_joints(world.robot(), &record.joints)?;
         if let Some((joint, time_s)) = record.missing_angle() {
@@ -198,9 +195,6 @@ impl<'a> Film<'a> {
     }
 
     /// Takes all pictures and puts them on a reel.
-    ///
-    /// # Errors
-    /// [`Interrupted`].
     pub fn shoot<R: Reel>(
         &self,
         reel: &mut R,

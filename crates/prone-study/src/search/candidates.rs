@@ -20,9 +20,6 @@ pub trait Candidates: Send + Sync + 'static {
     fn bounds(&self) -> &[Interval];
 
     /// The gait of a point.
-    ///
-    /// # Errors
-    /// [`PointError`].
     fn gait(&self, point: &[f64]) -> Result<Self::Gait, PointError>;
 
     /// The cost of a gait, which depends on nothing but the gait.

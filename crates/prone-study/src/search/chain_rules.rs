@@ -33,9 +33,6 @@ const STOP_TOLERANCE: f64 = 2e-5;
 ///
 /// A gait whose joints stay within the stops, or must, widens nothing. Where one is clamped, as the
 /// published ones are in the ankle, gaits about it may be: the same joints, no further, at any phase.
-///
-/// # Errors
-/// [`MappingError`].
 pub fn widened_stops(robot: &Robot, gait: &Gait) -> Result<Vec<Range>, MappingError> {
     let mapping = Mapping::new(robot, gait.mapping, gait.arm)?;
     let stops = robot.stops();

@@ -145,9 +145,6 @@ fn cycle_row(setting: &Setting, trial: &Trial, kept: f64) -> ConfirmedSetting {
 
 /// Pulls in settings, by what a search minimised; the found gait is the last, ratios are to the
 /// first.
-///
-/// # Errors
-/// [`ConfirmError`].
 pub fn pulls(
     gaits: &[Gait],
     settings: &[PullSetting],

@@ -257,9 +257,6 @@ pub struct CycleSearch {
 
 impl CycleSearch {
     /// Searches about a cycle in settings made by [`super::settings`].
-    ///
-    /// # Errors
-    /// [`CycleCostError`].
     pub fn new(
         robot: &Robot,
         settings: &Arc<[Setting]>,

@@ -80,9 +80,6 @@ pub enum CycleFormError {
 
 impl CycleForm {
     /// The box about a cycle that a robot can crawl.
-    ///
-    /// # Errors
-    /// [`CycleFormError`].
     pub fn about(robot: &Robot, middle: &Cycle) -> Result<Self, CycleFormError> {
         let middle = completed(robot, middle)?;
         let mut form = Self {

@@ -96,9 +96,6 @@ fn listed(refused: &[(String, CrawlError)]) -> String {
 }
 
 /// One search a ceiling, each with the cycle that is searched about.
-///
-/// # Errors
-/// [`CycleSearchError`].
 pub fn jobs(
     experiment: &CycleSearchExperiment,
     robot: &LoadedRobot,

@@ -39,9 +39,6 @@ pub struct CycleRun {
 
 impl CycleRun {
     /// Prepares a search: finds the cycle that is searched about under each ceiling.
-    ///
-    /// # Errors
-    /// [`CycleSearchError`].
     pub fn new(
         experiment: &CycleSearchExperiment,
         robot: &LoadedRobot,

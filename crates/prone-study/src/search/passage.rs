@@ -175,9 +175,6 @@ pub enum PassageError {
 impl Passage {
     /// Searches a cycle that fits under the ceiling, about the lowest one there is, and takes it into
     /// account. Nothing where the budget is too small.
-    ///
-    /// # Errors
-    /// [`PassageError`].
     pub fn search(
         &mut self,
         asked: PassageSearch,

@@ -56,9 +56,6 @@ pub enum PublishedProblemError {
 
 impl PublishedProblem {
     /// The problem of a robot's published chain on a map; `rules` as published or varied.
-    ///
-    /// # Errors
-    /// [`PublishedProblemError`].
     pub fn new(
         robot: &Robot,
         map: &TorqueMap,
@@ -77,9 +74,6 @@ impl PublishedProblem {
 }
 
 /// The published objective of a robot's published chain on a map.
-///
-/// # Errors
-/// [`PublishedProblemError`].
 pub fn objective(
     robot: &Robot,
     map: &TorqueMap,

@@ -99,9 +99,6 @@ pub enum PullCostError {
 
 impl PullCosts {
     /// Costs in a world, of gaits that share mapping and arms with the base of `terms`.
-    ///
-    /// # Errors
-    /// [`PullCostError`].
     pub fn new(world: &World, terms: PullTerms) -> Result<Self, PullCostError> {
         let robot = world.robot();
         let base = &terms.base;
@@ -177,9 +174,6 @@ impl PullCosts {
     }
 
     /// The simulated pull of a gait, whatever rules it breaks.
-    ///
-    /// # Errors
-    /// [`PullError`].
     pub fn pull(&self, gait: &Gait) -> Result<Pull, PullError> {
         let (world, duration) = (&self.world, self.terms.duration);
         match &self.method {

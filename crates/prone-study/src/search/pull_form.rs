@@ -63,9 +63,6 @@ pub struct PullForm {
 
 impl PullForm {
     /// Gaits of a form about a base gait, whose mapping, arms and limits policy they keep.
-    ///
-    /// # Errors
-    /// [`FormError`].
     pub fn new(form: GaitForm, ends: Ends, base: &Gait) -> Result<Self, FormError> {
         if !(4..=32).contains(&numbers_per_curve(form)) {
             return Err(FormError::Points {

@@ -137,9 +137,6 @@ const PUBLISHED_DURATION_S: f64 = 3.0;
 impl PullTerms {
     /// Completes what was asked for in a world: by the base gait's heights and stops, and by the share
     /// of the weight of the gait that is the limit.
-    ///
-    /// # Errors
-    /// [`PullTermsError`].
     pub fn new(choice: &PullCostChoice, world: &World) -> Result<Self, PullTermsError> {
         let base = choice.base.parse(gait_file::parse)?;
         let source = Source::new(&choice.source)?;
@@ -347,9 +344,6 @@ fn advance(chain: &ClosedChain, gait: &Gait) -> f64 {
 const SHORTEST_ADVANCE: f64 = 1e-3;
 
 /// Whether a gait, and with it every one whose upper arm has the same ends, has a cost per metre.
-///
-/// # Errors
-/// [`AdvanceError`].
 pub fn check_advance(robot: &Robot, gait: &Gait) -> Result<(), AdvanceError> {
     let mapping = Mapping::new(robot, gait.mapping, gait.arm)?;
     let advance = advance(mapping.chain(), gait);
@@ -367,9 +361,6 @@ pub fn check_advance(robot: &Robot, gait: &Gait) -> Result<(), AdvanceError> {
 const HIP_TOLERANCE: f64 = 1e-5;
 
 /// The lowest hip of a gait's planned chain, m: a clearance that gaits about it can keep.
-///
-/// # Errors
-/// [`MappingError`].
 pub fn lowest_hip(world: &World, gait: &Gait) -> Result<Clearance, MappingError> {
     let mapping = Mapping::new(world.robot(), gait.mapping, gait.arm)?;
     let chain = mapping.chain();

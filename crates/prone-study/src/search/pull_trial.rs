@@ -76,9 +76,6 @@ pub(super) fn torques(robot: &Robot, pull: &Pull) -> Vec<[f64; 4]> {
 }
 
 /// A norm of a record: integrals by the published trapezoid rule, peaks over control steps.
-///
-/// # Errors
-/// [`CostError`].
 pub fn torque_part(robot: &Robot, pull: &Pull, norm: &Norm) -> Result<f64, CostError> {
     let scale = match norm {
         Norm::SquaredTorque { weights } => weights.map(f64::sqrt),

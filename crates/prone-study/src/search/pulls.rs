@@ -76,9 +76,6 @@ pub enum PullSearchError {
 
 impl PullRun {
     /// Prepares a search.
-    ///
-    /// # Errors
-    /// [`PullSearchError`].
     pub fn new(
         experiment: &PullSearchExperiment,
         robot: &LoadedRobot,

@@ -17,9 +17,6 @@ pub struct NoRoom {
 
 impl NoRoom {
     /// Checks that a margin leaves room under a ceiling; NaN leaves none.
-    ///
-    /// # Errors
-    /// [`NoRoom`].
     pub fn check(ceiling_mm: f64, margin_mm: f64) -> Result<(), Self> {
         if margin_mm < ceiling_mm {
             return Ok(());

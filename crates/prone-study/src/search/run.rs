@@ -42,9 +42,6 @@ pub trait SearchRun: Send + Sync + 'static {
     fn jobs(&self) -> &[Job<Self::Candidates>];
 
     /// Confirms what was found, and makes the files of the result folder; one search a job.
-    ///
-    /// # Errors
-    /// [`SearchError`].
     fn conclude(
         &self,
         searches: &[Search],

@@ -80,9 +80,6 @@ pub struct Setting {
 
 impl SettingSpec {
     /// A robot's world for it.
-    ///
-    /// # Errors
-    /// [`WorldError`].
     pub fn compile(self, robot: &LoadedRobot) -> Result<Setting, WorldError> {
         let mut scene = Scene::level();
         scene.floor.friction = self.friction;

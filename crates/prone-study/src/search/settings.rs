@@ -105,9 +105,6 @@ fn compiled<const N: usize>(
 }
 
 /// For a search by an objective.
-///
-/// # Errors
-/// [`SettingError`].
 pub fn for_search(
     objective: CycleObjective,
     robot: &LoadedRobot,
@@ -119,9 +116,6 @@ pub fn for_search(
 }
 
 /// For the confirmation of what such a search found.
-///
-/// # Errors
-/// [`SettingError`].
 pub fn for_confirmation_of(
     objective: CycleObjective,
     robot: &LoadedRobot,
@@ -133,9 +127,6 @@ pub fn for_confirmation_of(
 }
 
 /// For a search of the advance: as it is, and the two corners in which it is hardest to hold.
-///
-/// # Errors
-/// [`SettingError`].
 pub fn for_advance(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
     compiled(
         robot,
@@ -149,17 +140,11 @@ pub fn for_advance(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
 
 /// What a search adds where its cycle has to be steered: at the largest command it turns, and joints
 /// that are off on ground that is more slippery on one side turn it by less than that.
-///
-/// # Errors
-/// [`SettingError`].
 pub fn for_steering(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
     steering(robot, KEEP, OFF_SEED)
 }
 
 /// The same for a confirmation, with joints off by other angles.
-///
-/// # Errors
-/// [`SettingError`].
 pub fn for_steering_confirmation(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
     steering(robot, HOLDS, OFF_SEED + UNEVEN.len() as u64)
 }
@@ -196,9 +181,6 @@ pub fn offsets(robot: &Robot, largest: f64, seed: u64) -> JointAngles {
 }
 
 /// For a search of the heat: the mean over soft and stiff servos, as nobody knows a robot's.
-///
-/// # Errors
-/// [`SettingError`].
 pub fn for_heat(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
     compiled(
         robot,
@@ -213,9 +195,6 @@ pub fn for_heat(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
 /// and servos that command as much speed as the fastest joint of the robot has, where the robot's
 /// law cuts earlier (the NAO's at 3 rad/s) and limbs lag behind the plan: no search of the advance
 /// looks at them.
-///
-/// # Errors
-/// [`SettingError`].
 pub fn for_confirmation(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
     let regime = Regime::LOCOMOTION;
     let fine = SettingSpec {
@@ -244,9 +223,6 @@ pub fn for_confirmation(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingErro
 }
 
 /// For a confirmation of the heat: servos, frictions and the duration of the pull.
-///
-/// # Errors
-/// [`SettingError`].
 pub fn for_heat_confirmation(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
     let mut settings = for_confirmation(robot)?;
     for seconds in [1.0, 2.0, 3.0] {

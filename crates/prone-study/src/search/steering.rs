@@ -39,9 +39,6 @@ pub enum NotSteered {
 /// [`super::settings::for_steering_confirmation`]. A cycle that was searched for something else has
 /// the steering of the one that it was searched about, which may do nothing in it, or turn it the
 /// wrong way.
-///
-/// # Errors
-/// [`NotSteered`].
 pub fn check_steering(settings: &[Setting], cycle: &Cycle) -> Result<(), NotSteered> {
     // Not a number steers nothing, and throws a robot off as far as can be.
     let further = |one: f64, other: f64| match one.total_cmp(&other.abs()) {

@@ -34,9 +34,6 @@ pub struct Trial {
 }
 
 /// Crawls a cycle in one setting.
-///
-/// # Errors
-/// [`CrawlError`].
 pub fn try_out(setting: &Setting, cycle: &Cycle) -> Result<Trial, CrawlError> {
     let cycle = Cycle {
         pull_duration: setting.spec.pull.unwrap_or(cycle.pull_duration),

@@ -45,9 +45,6 @@ pub enum PlanError {
 impl Plan {
     /// Gaits in the order of the records, and durations in seconds; order and repetitions do not
     /// matter.
-    ///
-    /// # Errors
-    /// [`PlanError`].
     pub fn new(gaits: Vec<Gait>, durations_s: &[f64]) -> Result<Self, PlanError> {
         let mut durations = Vec::new();
         for &seconds in durations_s {
@@ -74,9 +71,6 @@ impl Plan {
     }
 
     /// Plans every phase and simulates none: what the robot cannot follow is known at once.
-    ///
-    /// # Errors
-    /// [`TrajectoryError`].
     pub fn check(&self, world: &World) -> Result<(), TrajectoryError> {
         for job in super::jobs(self) {
             pull::plan(world, &job.gait, job.duration)?;
