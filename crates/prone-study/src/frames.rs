@@ -70,7 +70,7 @@ pub fn of(
         .map(|index| format!("{} %", index * 100 / (snapshots.len() - 1).max(1)))
         .collect();
     let instants = percents.join(", ");
-    let wording = Wording {
+    let figure = Figure {
         stem: format!("fig-{number}-{gait}-frames"),
         number,
         title: format!("The simulated robot, {gait} gait"),
@@ -83,8 +83,9 @@ pub fn of(
             "Five pictures of the simulated robot lying on its belly, then carried forward \
              on toes and forearms, at {instants} of the pull."
         ),
+        svg: String::new(),
     };
-    stacked(&pictures, &percents, wording)
+    stacked(&pictures, &percents, figure)
 }
 
 /// Figure 22: the robot before a pull.
@@ -94,7 +95,7 @@ pub fn start(
     posture: &str,
     snapshot: &Snapshot,
 ) -> Result<Frames, FramesError> {
-    let wording = Wording {
+    let figure = Figure {
         stem: format!("fig-22-{gait}-start"),
         number: "22",
         title: "The simulated robot before a pull".to_owned(),
@@ -107,28 +108,17 @@ pub fn start(
         alt: "The simulated robot from its right, flat on its belly, legs behind it on the toes, \
               forearms on the floor ahead of the shoulders."
             .to_owned(),
+        svg: String::new(),
     };
-    stacked(
-        &[from_the_right(world, snapshot)],
-        &[String::new()],
-        wording,
-    )
+    stacked(&[from_the_right(world, snapshot)], &[String::new()], figure)
 }
 
-/// What is said about frames.
-pub(crate) struct Wording {
-    pub(crate) stem: String,
-    pub(crate) number: &'static str,
-    pub(crate) title: String,
-    pub(crate) caption: String,
-    pub(crate) alt: String,
-}
-
-/// Pictures of one size, one below the other, each with its label in the corner.
+/// Pictures of one size, one below the other, each with its label in the corner, as the drawing of a
+/// figure that has none yet.
 pub(crate) fn stacked(
     pictures: &[Picture],
     labels: &[String],
-    wording: Wording,
+    figure: Figure,
 ) -> Result<Frames, FramesError> {
     let stack = stack(pictures);
     let labels = label_elements(labels, stack.height / pictures.len().max(1));
@@ -136,12 +126,8 @@ pub(crate) fn stacked(
     let bare = stack.png()?;
     Ok(Frames {
         figure: Figure {
-            stem: wording.stem,
-            number: wording.number,
-            title: wording.title,
-            caption: wording.caption,
-            alt: wording.alt,
             svg: svg(size, &picture_element(size, &bare), &labels),
+            ..figure
         },
         png: raster::png_over(&svg(size, "", &labels), size, &stack.rgb)?,
     })

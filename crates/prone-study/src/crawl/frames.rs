@@ -9,7 +9,8 @@ use prone_sim::camera::{self, Picture};
 use prone_sim::crawl::{Crawl, Row};
 use prone_sim::{Snapshot, World};
 
-use crate::frames::{Frames, FramesError, Wording, stacked, towards};
+use crate::frames::{Frames, FramesError, stacked, towards};
+use prone_report::figures::Figure;
 
 /// How many instants are shown.
 const INSTANTS: usize = 6;
@@ -68,7 +69,7 @@ fn start(world: &World, gait: &str, crawl: &Crawl) -> Result<Option<Frames>, Fra
     let Some((first, snapshot)) = crawl.rows.first().zip(crawl.snapshots.first()) else {
         return Ok(None);
     };
-    let wording = Wording {
+    let figure = Figure {
         stem: format!("fig-22-{gait}-start"),
         number: "22",
         title: format!("The simulated robot at the start, {gait}"),
@@ -80,9 +81,10 @@ fn start(world: &World, gait: &str, crawl: &Crawl) -> Result<Option<Frames>, Fra
         ),
         alt: "The simulated robot from its right and behind, prone, legs behind it, arms ahead."
             .to_owned(),
+        svg: String::new(),
     };
     let picture = close(world, first, snapshot, FROM_BEHIND);
-    Ok(Some(stacked(&[picture], &[String::new()], wording)?))
+    Ok(Some(stacked(&[picture], &[String::new()], figure)?))
 }
 
 /// Figure 23: the row nearest to the middle of the first panel or, without one, plate; nothing
@@ -111,7 +113,7 @@ fn under(world: &World, gait: &str, crawl: &Crawl) -> Result<Option<Frames>, Fra
     let tops = row.tops.0.iter().map(|top| top * 1e3);
     let top_mm = tops.fold(f64::NEG_INFINITY, f64::max);
     let kind = obstacle.kind.name();
-    let wording = Wording {
+    let figure = Figure {
         stem: format!("fig-23-{gait}-under"),
         number: "23",
         title: format!("The simulated robot under the {kind}, {gait}"),
@@ -125,9 +127,10 @@ fn under(world: &World, gait: &str, crawl: &Crawl) -> Result<Option<Frames>, Fra
             "The simulated robot from its right and ahead, prone below the {kind}, whose lower edge is \
              {ceiling_mm:.0} millimetres above the floor."
         ),
+        svg: String::new(),
     };
     let picture = close(world, row, snapshot, FROM_AHEAD);
-    Ok(Some(stacked(&[picture], &[String::new()], wording)?))
+    Ok(Some(stacked(&[picture], &[String::new()], figure)?))
 }
 
 /// One robot, from its right and low.
@@ -210,7 +213,7 @@ fn sequence(world: &World, gait: &str, crawl: &Crawl) -> Result<Option<Frames>, 
         .collect();
     let scene = &world.scene().name;
     let said = labels.join("; ");
-    let wording = Wording {
+    let figure = Figure {
         stem: format!("fig-28-{gait}-sequence"),
         number: "28",
         title: format!("The simulated robot, {gait}, scene {scene}"),
@@ -223,8 +226,9 @@ fn sequence(world: &World, gait: &str, crawl: &Crawl) -> Result<Option<Frames>, 
         alt: format!(
             "{count} pictures of the simulated robot crawling to the right on its belly, at {said}."
         ),
+        svg: String::new(),
     };
-    Ok(Some(stacked(&pictures, &labels, wording)?))
+    Ok(Some(stacked(&pictures, &labels, figure)?))
 }
 
 #[cfg(test)]
