@@ -34,10 +34,17 @@ pub(crate) fn print(outcome: &CostOutcome, out: &mut dyn Write) -> std::io::Resu
     let number = |value: Option<f64>| {
         value.map_or_else(|| "not known".to_owned(), |value| format!("{value:.4}"))
     };
-    writeln!(out, "{}", gait.name)?;
-    writeln!(out, "  cost        {}", number(cost.cost))?;
-    writeln!(out, "  torque      {} {unit}", number(cost.torque))?;
-    writeln!(out, "  violations  {}", trimmed(cost.violations))?;
+    writeln!(
+        out,
+        "{}
+  cost        {}
+  torque      {} {unit}
+  violations  {}",
+        gait.name,
+        number(cost.cost),
+        number(cost.torque),
+        trimmed(cost.violations)
+    )?;
     for broken in &cost.broken {
         writeln!(
             out,

@@ -283,21 +283,14 @@ fn top_speed(sheet: &GaitSheet, joint: usize) -> f64 {
 }
 
 fn print_heights(sheet: &GaitSheet, out: &mut impl std::io::Write) -> std::io::Result<()> {
-    writeln!(out, "\nheights and stride of the planned chain")?;
     writeln!(
         out,
-        "  ankle's highest point (joint centre)  {:>7.1} mm",
-        sheet.ankle_peak_mm
-    )?;
-    writeln!(
-        out,
-        "  highest point of the body             {:>7.1} mm",
-        sheet.top_mm
-    )?;
-    writeln!(
-        out,
-        "  lowest point of trunk and legs        {:>7.1} mm",
-        sheet.body_bottom_mm
+        "
+heights and stride of the planned chain
+  ankle's highest point (joint centre)  {:>7.1} mm
+  highest point of the body             {:>7.1} mm
+  lowest point of trunk and legs        {:>7.1} mm",
+        sheet.ankle_peak_mm, sheet.top_mm, sheet.body_bottom_mm
     )?;
     if sheet.body_bottom_mm < 0.0 {
         writeln!(
@@ -305,9 +298,9 @@ fn print_heights(sheet: &GaitSheet, out: &mut impl std::io::Write) -> std::io::R
             "    below the floor: there the body rests on it and cannot follow the chain"
         )?;
     }
+    let stride_mm = sheet.stride_mm;
     writeln!(
         out,
-        "  advance of the shoulder               {:>7.1} mm",
-        sheet.stride_mm
+        "  advance of the shoulder               {stride_mm:>7.1} mm"
     )
 }

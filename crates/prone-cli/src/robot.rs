@@ -120,21 +120,22 @@ fn print(sheet: &RobotSheet, folder: &str, out: &mut impl std::io::Write) -> std
         let theirs = published.map_or_else(|| "–".to_owned(), |p| format!("{:.2}", p[index]));
         writeln!(out, "  {label:<34}{:>8.2}{theirs:>12}", derived[index])?;
     }
-    writeln!(out, "\noutside the planar chain")?;
     writeln!(
         out,
-        "  toe edge ahead of the ankle       {:>8.2} mm",
-        sheet.toe_edge_mm
-    )?;
-    writeln!(
-        out,
-        "  elbow radius                      {:>8.2} mm",
-        sheet.elbow_radius_mm
-    )?;
-    writeln!(
-        out,
-        "\n{:<18}{:>20}{:>12}{:>13}{:>11}{:>11}",
-        "joint (left)", "range, °", "effort N·m", "nominal N·m", "stall N·m", "rad/s"
+        "
+outside the planar chain
+  toe edge ahead of the ankle       {:>8.2} mm
+  elbow radius                      {:>8.2} mm
+
+{:<18}{:>20}{:>12}{:>13}{:>11}{:>11}",
+        sheet.toe_edge_mm,
+        sheet.elbow_radius_mm,
+        "joint (left)",
+        "range, °",
+        "effort N·m",
+        "nominal N·m",
+        "stall N·m",
+        "rad/s"
     )?;
     for drive in &sheet.drives {
         let [lower, upper] = drive.range_deg;

@@ -49,21 +49,6 @@ pub enum Experiment {
     TorqueMap(Box<TorqueMapExperiment>),
 }
 
-impl Experiment {
-    /// The robot that takes part.
-    pub fn robot(&self) -> &RobotText {
-        match self {
-            Self::Pull(it) => &it.robot,
-            Self::Crawl(it) => &it.robot,
-            Self::Passage(it) => &it.robot,
-            Self::Cost(it) => &it.robot,
-            Self::PullSearch(it) => &it.robot,
-            Self::CycleSearch(it) => &it.robot,
-            Self::TorqueMap(it) => &it.robot,
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use prone_files::robot_folder::RobotFiles;

@@ -23,12 +23,14 @@ pub(crate) fn print(summary: &CrawlSummary, out: &mut dyn Write) -> Result<()> {
     )?;
     writeln!(
         out,
-        "  path {:.1} mm: {:.1} mm per cycle, {:.1} mm/s; {:.1} mm ahead, {:+.1} mm to the left, heading {:+.1}°",
-        s.path_mm, s.mm_per_cycle, s.mm_per_s, s.distance_mm, s.lateral_mm, s.yaw_deg
-    )?;
-    writeln!(
-        out,
-        "  a cycle: {:.1} mm in the pull, {:.1} mm in the recovery; trunk and legs carry {:.0} % and {:.0} % of the weight",
+        "  path {:.1} mm: {:.1} mm per cycle, {:.1} mm/s; {:.1} mm ahead, {:+.1} mm to the left, heading {:+.1}°
+  a cycle: {:.1} mm in the pull, {:.1} mm in the recovery; trunk and legs carry {:.0} % and {:.0} % of the weight",
+        s.path_mm,
+        s.mm_per_cycle,
+        s.mm_per_s,
+        s.distance_mm,
+        s.lateral_mm,
+        s.yaw_deg,
         s.pull_mm_per_cycle,
         s.recovery_mm_per_cycle,
         s.pull_body_share * 100.0,
@@ -48,11 +50,11 @@ pub(crate) fn print(summary: &CrawlSummary, out: &mut dyn Write) -> Result<()> {
             s.stride_mm
         )?,
     }
-    write!(out, "  highest points, mm:")?;
-    for (part, top) in BodyPart::ALL.into_iter().zip(s.top_mm.to_array()) {
-        write!(out, " {} {top:.1}", part.name())?;
-    }
-    writeln!(out)?;
+    let tops = BodyPart::ALL.into_iter().zip(s.top_mm.to_array());
+    let tops: Vec<_> = tops
+        .map(|(part, top)| format!(" {} {top:.1}", part.name()))
+        .collect();
+    writeln!(out, "  highest points, mm:{}", tops.concat())?;
     writeln!(
         out,
         "  peak torque {:.2} of the effort limit ({}); demanded of a shoulder {:.2} N·m, more than its limit {:.1} % of the time",

@@ -49,9 +49,13 @@ pub(crate) fn print(summary: &Summary, map: &Path, out: &mut dyn Write) -> std::
         open,
         failed,
     } = summary;
-    writeln!(out, "{}: torque map by {source}", map.display())?;
-    writeln!(out, "{rows:>8} rows")?;
-    writeln!(out, "{with_torques:>8} with torques")?;
-    writeln!(out, "{open:>8} masked: the chain does not close")?;
-    writeln!(out, "{failed:>8} masked: the source had no torques")
+    writeln!(
+        out,
+        "{}: torque map by {source}
+{rows:>8} rows
+{with_torques:>8} with torques
+{open:>8} masked: the chain does not close
+{failed:>8} masked: the source had no torques",
+        map.display()
+    )
 }
