@@ -14,6 +14,7 @@ use prone::scene::{Obstacle, Scene, SceneError};
 use prone::statics::GRAVITY;
 
 use crate::engine_log;
+use crate::engine_numbers::robot_body;
 use crate::load::LoadedRobot;
 use prone::regime::{self, Effort, Regime, Stops};
 use scenery::Scenery;
@@ -170,15 +171,9 @@ fn geom_roles(model: &MjModel, scenery: &Scenery) -> Vec<GeomRole> {
     let mut scenery = scenery.roles().into_iter();
     let bodies = model.geom_bodyid().iter();
     bodies
-        .map(|&body| {
-            // The engine's body 0 is the world; the robot's bodies follow in order.
-            match usize::try_from(body)
-                .ok()
-                .and_then(|body| body.checked_sub(1))
-            {
-                Some(index) => GeomRole::Robot(BodyId(index)),
-                None => scenery.next().unwrap_or(GeomRole::Floor),
-            }
+        .map(|&body| match robot_body(body) {
+            Some(body) => GeomRole::Robot(body),
+            None => scenery.next().unwrap_or(GeomRole::Floor),
         })
         .collect()
 }

@@ -7,6 +7,7 @@ use prone::scene::{Heights, Marker, Obstacle, ObstacleKind, Roughness, Scene, Si
 
 use super::{GeomRole, add_world_geom};
 use crate::camera;
+use crate::engine_numbers::real_first;
 
 /// The engine's name for the grid of heights.
 const ROUGH: &str = "rough ground";
@@ -130,10 +131,6 @@ fn add_marker(spec: &mut MjSpec, marker: &Marker, friction: [f64; 3]) {
         .with_rgba(RED)
         .with_contype(0)
         .with_conaffinity(0);
-}
-
-const fn real_first(turn: DQuat) -> [f64; 4] {
-    [turn.w, turn.x, turn.y, turn.z]
 }
 
 #[cfg(test)]
