@@ -40,7 +40,7 @@ pub(super) fn read(lookup: &Lookup<'_>, table: &ImuTable, parts: &Parts) -> Resu
     Ok(Imu {
         site: name.get_ref().clone(),
         // The root body's own frame is the root frame.
-        root_from_sensor: Transform::new(site.link_from_site, site.point.metres()),
+        root_from_sensor: Transform::new(site.link_from_axes, site.point.metres()),
         accelerometer: SensorNoise {
             standard_deviation: acceleration(
                 "accelerometer_noise_m_s2",

@@ -23,7 +23,7 @@ pub(super) struct Parts {
 pub(super) struct Site {
     pub(super) body: BodyId,
     pub(super) point: Point<Link>,
-    pub(super) link_from_site: DQuat,
+    pub(super) link_from_axes: DQuat,
     pub(super) accelerometer: bool,
     pub(super) gyroscope: bool,
 }
@@ -184,7 +184,7 @@ fn read_sites(model: &MjModel) -> BTreeMap<String, Site> {
         let site = Site {
             body,
             point: Point::new(DVec3::from_array(model.site_pos()[index])),
-            link_from_site: rotation(model.site_quat()[index]).normalize(),
+            link_from_axes: rotation(model.site_quat()[index]).normalize(),
             accelerometer: has(MjtSensor::mjSENS_ACCELEROMETER),
             gyroscope: has(MjtSensor::mjSENS_GYRO),
         };
