@@ -94,8 +94,4 @@ impl LoadedRobot {
     pub const fn files(&self) -> &RobotFiles {
         &self.files
     }
-
-    pub(crate) fn mjcf(&self) -> &str {
-        &self.files.mjcf
-    }
 }

@@ -32,16 +32,10 @@ const FARTHEST: f64 = 1e3;
 pub struct SelfCollision {
     robot: Arc<Robot>,
     data: MjData<Arc<MjModel>>,
-    pairs: Vec<Pair>,
-}
-
-/// Two shapes that may meet.
-#[derive(Debug, Clone, Copy)]
-struct Pair {
-    /// Indices in [`Robot::shapes`].
-    shapes: [usize; 2],
-    /// Indices in the engine's model.
-    geoms: [usize; 2],
+    /// Pairs of shapes that may meet, as indices in [`Robot::shapes`].
+    pairs: Vec<[usize; 2]>,
+    /// The engine's geom of every shape.
+    geoms: Vec<usize>,
 }
 
 /// A part of the robot that moves by itself.
@@ -120,7 +114,6 @@ impl SelfCollision {
     /// [`SelfCollisionError::NoPairs`].
     pub fn new(world: &World) -> Result<Self, SelfCollisionError> {
         let robot = world.shared_robot();
-        let geoms = geoms(&world.model, &robot);
         let limbs = limbs(&robot);
         let shapes_of = |limb: Limb| -> Vec<usize> {
             let belongs = |&shape: &usize| limbs[robot.shapes[shape].body.0] == Some(limb);
@@ -129,12 +122,7 @@ impl SelfCollision {
         let mut pairs = Vec::new();
         for (one, other) in LIMB_PAIRS {
             for first in shapes_of(one) {
-                for second in shapes_of(other) {
-                    pairs.push(Pair {
-                        shapes: [first, second],
-                        geoms: [geoms[first], geoms[second]],
-                    });
-                }
+                pairs.extend(shapes_of(other).into_iter().map(|second| [first, second]));
             }
         }
         if pairs.is_empty() {
@@ -144,6 +132,7 @@ impl SelfCollision {
         }
         Ok(Self {
             data: MjData::new(Arc::clone(&world.model)),
+            geoms: geoms(&world.model, &robot),
             robot,
             pairs,
         })
@@ -165,9 +154,7 @@ impl SelfCollision {
         let Some(((distance_m, index), pair)) = nearest else {
             unreachable!("there are pairs");
         };
-        let [one, other] = pair
-            .shapes
-            .map(|shape| self.robot.shapes[shape].name.clone());
+        let [one, other] = pair.map(|shape| self.robot.shapes[shape].name.clone());
         Ok(Nearest {
             shapes: (one, other),
             distance_m,
@@ -185,7 +172,7 @@ impl SelfCollision {
         for (index, posture) in postures.into_iter().enumerate() {
             self.place(posture, index)?;
             for (pair, nearest) in self.pairs.iter().zip(&mut nearest) {
-                let [one, other] = pair.geoms;
+                let [one, other] = pair.map(|shape| self.geoms[shape]);
                 let distance = self.data.geom_distance(one, other, FARTHEST, None);
                 if distance < nearest.0 {
                     *nearest = (distance, index);

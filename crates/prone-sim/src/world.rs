@@ -186,14 +186,17 @@ fn compile(
 ) -> Result<MjModel, MjEditError> {
     engine_log::silence();
     let robot = loaded.robot();
-    let mut spec = MjSpec::from_xml_string(loaded.mjcf())?;
-    *spec.option_mut() = options(regime, scenery.slope());
+    let mut spec = MjSpec::from_xml_string(&loaded.files().mjcf)?;
+    let floor = &scenery.scene.floor;
+    *spec.option_mut() = options(regime, floor.slope);
     let [torsional, rolling] = UNUSED_FRICTION;
     let friction = [regime.friction, torsional, rolling];
     for geom in spec.geom_iter_mut() {
         set_contact(geom, friction);
     }
-    add_floor(&mut spec, friction);
+    add_world_geom(&mut spec, friction)
+        .with_type(MjtGeomBase::mjGEOM_PLANE)
+        .with_size([FLOOR_HALF_LENGTH, FLOOR_HALF_LENGTH, 0.1]);
     scenery.add_to(&mut spec, friction)?;
     for joint in &robot.joints {
         let limit = match regime.effort {
@@ -213,7 +216,7 @@ fn compile(
         );
         model.jnt_range_mut()[joint] = [stop.lower, stop.upper];
     }
-    if let Some(sides) = scenery.friction() {
+    if let Some(sides) = floor.friction {
         let roles = geom_roles(&model, scenery);
         friction::set_by_side(&mut model, &roles, robot, sides);
     }
@@ -246,13 +249,6 @@ fn set_contact(geom: &mut MjsGeom, friction: [f64; 3]) {
         .with_gap(0.0)
         .with_surfacevel([0.0; 6])
         .with_adhesion(0.0);
-}
-
-/// A level plane.
-fn add_floor(spec: &mut MjSpec, friction: [f64; 3]) {
-    add_world_geom(spec, friction)
-        .with_type(MjtGeomBase::mjGEOM_PLANE)
-        .with_size([FLOOR_HALF_LENGTH, FLOOR_HALF_LENGTH, 0.1]);
 }
 
 /// A geom that stands still and that the robot touches. Every property is stated: a new geom

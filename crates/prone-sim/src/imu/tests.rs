@@ -58,10 +58,9 @@ fn filtered(simulation: &mut Simulation, imu: &mut SimulatedImu, seconds: f64) -
 
 /// Without noise and bias.
 fn exact(mut imu: SimulatedImu) -> SimulatedImu {
-    imu.accelerometer_bias = DVec3::ZERO;
-    imu.gyroscope_bias = DVec3::ZERO;
-    for noise in [&mut imu.imu.accelerometer, &mut imu.imu.gyroscope] {
-        noise.standard_deviation = 0.0;
+    for sensor in [&mut imu.accelerometer, &mut imu.gyroscope] {
+        sensor.bias = DVec3::ZERO;
+        sensor.standard_deviation = 0.0;
     }
     imu
 }
@@ -215,8 +214,8 @@ fn identity_noise_has_the_stated_deviation_and_bias() {
     let simulation = Simulation::new(&world, &gait_pose(&world));
     let mut imu = SimulatedImu::new(&world, 21).unwrap();
     let truth = exact(imu.clone()).read(&simulation);
-    let noise = imu.imu.gyroscope;
-    let bias = imu.gyroscope_bias;
+    let noise = world.robot().imu.as_ref().unwrap().gyroscope;
+    let bias = imu.gyroscope.bias;
     assert!(bias.abs().max_element() <= noise.bias_bound);
     let count = 20_000;
     let (mut sum, mut squares) = (DVec3::ZERO, DVec3::ZERO);

@@ -14,11 +14,12 @@ const ROOT: BodyId = BodyId(0);
 pub(super) fn read(lookup: &Lookup<'_>, table: &ImuTable, parts: &Parts) -> Result<Imu, FileError> {
     let name = &table.site;
     let site = lookup.site(name, parts)?;
-    if site.body != ROOT {
+    let (body, position) = site.at;
+    if body != ROOT {
         let message = format!(
             "site {} is on {}; the inertial unit must be on the root {}",
             name.get_ref(),
-            parts.bodies[site.body.0].name,
+            parts.bodies[body.0].name,
             parts.bodies[ROOT.0].name
         );
         return Err(lookup.error(name, message));
@@ -40,7 +41,7 @@ pub(super) fn read(lookup: &Lookup<'_>, table: &ImuTable, parts: &Parts) -> Resu
     Ok(Imu {
         site: name.get_ref().clone(),
         // The root body's own frame is the root frame.
-        root_from_sensor: Transform::new(site.link_from_axes, site.point.metres()),
+        root_from_sensor: Transform::new(site.link_from_axes, position.metres()),
         accelerometer: SensorNoise {
             standard_deviation: acceleration(
                 "accelerometer_noise_m_s2",

@@ -5,7 +5,6 @@ use std::fmt::Display;
 
 use strsim::levenshtein;
 
-use prone::frames::{Link, Point};
 use prone::robot::{Body, BodyId, Joint, JointId, Range, bounds};
 use prone_files::FileError;
 use prone_files::robot_file::{Name, Placed, RobotFile};
@@ -62,16 +61,6 @@ impl Lookup<'_> {
         let known = parts.sites.keys().map(String::as_str);
         self.find(name, "site", known)?;
         Ok(&parts.sites[name.get_ref()])
-    }
-
-    /// A point of the chain.
-    pub(super) fn point(
-        &self,
-        name: &Name,
-        parts: &Parts,
-    ) -> Result<(BodyId, Point<Link>), FileError> {
-        let site = self.site(name, parts)?;
-        Ok((site.body, site.point))
     }
 
     /// A positive number up to `largest`.

@@ -21,8 +21,7 @@ pub(super) struct Parts {
 
 /// A named place of the robot, and what is measured there.
 pub(super) struct Site {
-    pub(super) body: BodyId,
-    pub(super) point: Point<Link>,
+    pub(super) at: (BodyId, Point<Link>),
     pub(super) link_from_axes: DQuat,
     pub(super) accelerometer: bool,
     pub(super) gyroscope: bool,
@@ -181,9 +180,9 @@ fn read_sites(model: &MjModel) -> BTreeMap<String, Site> {
             let mut sensors = model.sensor_type().iter().zip(model.sensor_objid());
             sensors.any(|(&kind, &site)| kind == wanted && usize::try_from(site) == Ok(index))
         };
+        let point = Point::new(DVec3::from_array(model.site_pos()[index]));
         let site = Site {
-            body,
-            point: Point::new(DVec3::from_array(model.site_pos()[index])),
+            at: (body, point),
             link_from_axes: rotation(model.site_quat()[index]).normalize(),
             accelerometer: has(MjtSensor::mjSENS_ACCELEROMETER),
             gyroscope: has(MjtSensor::mjSENS_GYRO),

@@ -226,13 +226,13 @@ impl Lookup<'_> {
         let joint = |name| self.joint(name, &parts.joints);
         let [upper, lower] = &table.forearm;
         Ok(SideLayout {
-            toe: self.point(&table.toe, parts)?,
+            toe: self.site(&table.toe, parts)?.at,
             ankle: joint(&table.ankle)?,
             knee: joint(&table.knee)?,
             hip: joint(&table.hip)?,
             shoulder: joint(&table.shoulder)?,
             shoulder_roll: joint(&table.shoulder_roll)?,
-            elbow: self.point(&table.elbow, parts)?,
+            elbow: self.site(&table.elbow, parts)?.at,
             forearm: [joint(upper)?, joint(lower)?],
             forearm_direction: direction,
         })

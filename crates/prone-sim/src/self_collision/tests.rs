@@ -119,7 +119,7 @@ fn named_distances(check: &mut SelfCollision, angles: &JointAngles) -> BTreeMap<
     let distances = check.distances([angles]).unwrap().into_iter();
     let shapes = &check.robot.shapes;
     let named = distances.zip(&check.pairs).map(|((distance, _), pair)| {
-        let names = pair.shapes.map(|shape| shapes[shape].name.clone());
+        let names = pair.map(|shape| shapes[shape].name.clone());
         (names, distance)
     });
     named.collect()

@@ -3,7 +3,7 @@
 use glam::DQuat;
 use mujoco_rs::prelude::*;
 
-use prone::scene::{Heights, Marker, Obstacle, ObstacleKind, Roughness, Scene, SideFriction};
+use prone::scene::{Heights, Marker, Obstacle, ObstacleKind, Roughness, Scene};
 
 use super::{GeomRole, add_world_geom};
 use crate::camera;
@@ -26,7 +26,7 @@ const GLASS: [f32; 4] = [0.35, 0.55, 0.75, 0.35];
 
 /// What a scene adds to the world, in the order in which it is added.
 pub(super) struct Scenery<'a> {
-    scene: &'a Scene,
+    pub(super) scene: &'a Scene,
     rough: Option<(&'a Roughness, Heights)>,
     obstacles: Vec<Obstacle>,
 }
@@ -39,14 +39,6 @@ impl<'a> Scenery<'a> {
             rough: rough.map(|rough| (rough, rough.heights())),
             obstacles: scene.obstacles(),
         }
-    }
-
-    pub(super) fn slope(&self) -> f64 {
-        self.scene.floor.slope
-    }
-
-    pub(super) fn friction(&self) -> Option<SideFriction> {
-        self.scene.floor.friction
     }
 
     /// Of the world's geoms: the floor, then all that [`Self::add_to`] adds.
