@@ -237,11 +237,6 @@ impl Simulation {
         self.data.sensordata()
     }
 
-    /// The engine's own data, to go on without this crate's servos and records.
-    pub fn into_engine_data(self) -> MjData<Arc<MjModel>> {
-        self.data
-    }
-
     /// Engine steps done so far.
     pub const fn steps(&self) -> usize {
         self.steps
@@ -306,7 +301,8 @@ impl World {
         robot.centre_of_mass(&poses)
     }
 
-    /// The engine's data at a snapshot, for [`crate::camera::ray_cast`].
+    /// The engine's data at a snapshot, for [`crate::camera::ray_cast`] and for comparisons with the
+    /// engine alone.
     pub fn at(&self, snapshot: &Snapshot) -> MjData<Arc<MjModel>> {
         let mut data = MjData::new(Arc::clone(&self.model));
         data.qpos_mut().copy_from_slice(&snapshot.0);

@@ -246,7 +246,7 @@ fn body_poses_agree_with_the_engine() {
         };
         let simulation = Simulation::new(&world, &placement);
         let ours = simulation.body_poses();
-        let theirs = simulation.into_engine_data();
+        let theirs = world.at(&simulation.snapshot());
         for index in 0..loaded.robot().bodies.len() {
             let ours = ours.of(prone::robot::BodyId(index));
             // The engine's first body is the world.

@@ -183,7 +183,7 @@ fn measure(
             if watch.stop() {
                 return Ok(None);
             }
-            let entry = Entry::from_measured(gauge(job.grid.grid().node(row)));
+            let entry = Entry::from_measured(&gauge(job.grid.grid().node(row)));
             if let Some(journal) = &mut *journal.lock().unwrap_or_else(PoisonError::into_inner) {
                 journal.append(&KeptRow(row, entry))?;
             }

@@ -26,8 +26,8 @@ pub struct KeptRow(pub(super) usize, pub(super) Entry);
 
 impl Entry {
     /// Torques and contact forces as measured; numbers that are not finite are no measurement.
-    pub(super) fn from_measured(measured: Result<[[f64; 4]; 2], TorqueGap>) -> Self {
-        match measured {
+    pub(super) fn from_measured(measured: &Result<[[f64; 4]; 2], TorqueGap>) -> Self {
+        match *measured {
             Ok(numbers) if numbers.as_flattened().iter().all(|n| n.is_finite()) => {
                 let [torques, contacts] = numbers;
                 Self::Held { torques, contacts }
