@@ -82,7 +82,8 @@ impl SimulatedImu {
         })
     }
 
-    /// One sample, of the beginning of the simulation's last engine step.
+    /// One sample, of the beginning of the simulation's last engine step. Read once per control
+    /// step, and not after each engine step, it misses jolts.
     pub fn read(&mut self, simulation: &Simulation) -> ImuReading {
         let readings = simulation.sensor_readings();
         let mut sample = |sensor: &SimulatedSensor| {

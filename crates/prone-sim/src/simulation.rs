@@ -114,18 +114,6 @@ impl Simulation {
     /// # Errors
     /// [`SimulationError::Diverged`].
     pub fn control_step(&mut self) -> Result<StepMeans, SimulationError> {
-        self.control_step_with(|_| ())
-    }
-
-    /// One control step, with a look after each of its engine steps: for [`crate::imu`], which
-    /// misses jolts when it reads once per control step.
-    ///
-    /// # Errors
-    /// [`SimulationError::Diverged`].
-    pub fn control_step_with(
-        &mut self,
-        mut after_engine_step: impl FnMut(&Self),
-    ) -> Result<StepMeans, SimulationError> {
         let mut means = StepMeans {
             actuator_torque: vec![0.0; self.reference.len()],
             contact: [0.0; 4],
@@ -133,7 +121,6 @@ impl Simulation {
         let steps = self.world.regime().steps_in(CONTROL_STEP);
         for _ in 0..steps {
             self.step();
-            after_engine_step(self);
             for (sum, torque) in means
                 .actuator_torque
                 .iter_mut()
@@ -180,12 +167,6 @@ impl Simulation {
     /// Length of one engine step, s.
     pub const fn time_step(&self) -> f64 {
         self.world.regime().time_step
-    }
-
-    /// Whether a whole number of periods, s, has just passed.
-    pub fn steps_are_due(&self, period: f64) -> bool {
-        self.steps
-            .is_multiple_of(self.world.regime().steps_in(period))
     }
 
     /// Normal force of the ground now by [`ContactGroup::ALL`], both sides together, N.

@@ -102,7 +102,7 @@ impl World {
             Stops::Maker => robot.stops(),
             Stops::Study => robot.study_stops(),
         };
-        let scenery = Scenery::of(scene);
+        let scenery = Scenery::from_scene(scene);
         let model =
             compile(loaded, regime, &stops, &scenery).map_err(|error| WorldError::Compile {
                 robot: robot.name.clone(),

@@ -256,7 +256,8 @@ impl Meter {
         for (sum, force) in self.means.contact.iter_mut().zip(contact) {
             *sum += force;
         }
-        if simulation.steps_are_due(ROW_STEP) {
+        let steps_per_row = simulation.world().regime().steps_in(ROW_STEP);
+        if simulation.steps().is_multiple_of(steps_per_row) {
             self.row(simulation, command);
         }
     }

@@ -10,8 +10,7 @@ use prone_files::shipped;
 use super::*;
 use crate::pull::{self, Start};
 use crate::{LoadedRobot, Placement, RobotFiles};
-use prone::regime::Regime;
-use prone::regime::TIME_STEP;
+use prone::regime::{CONTROL_STEP, Regime, TIME_STEP};
 
 /// The shipped robot in a world whose floor rises by `slope`, rad, in the direction of travel: seen
 /// from the floor, gravity is tilted.
@@ -122,10 +121,10 @@ fn identity_a_moving_robot_knows_its_attitude() {
     let mut largest = 0.0_f64;
     for sample in plan.samples() {
         simulation.command(&sample.joints);
-        let listen = |simulation: &Simulation| {
-            filter.update(&imu.read(simulation), TIME_STEP).unwrap();
-        };
-        simulation.control_step_with(listen).unwrap();
+        for _ in 0..world.regime().steps_in(CONTROL_STEP) {
+            simulation.step();
+            filter.update(&imu.read(&simulation), TIME_STEP).unwrap();
+        }
         largest = largest.max(filter.attitude().angle_to(&truth(&simulation, 0.0)));
     }
     // 0.5° of a biased accelerometer and as much again for the pull's jolts.

@@ -32,7 +32,7 @@ pub(super) struct Scenery<'a> {
 }
 
 impl<'a> Scenery<'a> {
-    pub(super) fn of(scene: &'a Scene) -> Self {
+    pub(super) fn from_scene(scene: &'a Scene) -> Self {
         let rough = scene.floor.roughness.as_ref();
         Self {
             scene,
