@@ -1,6 +1,6 @@
 //! Simulated steps per second: our control step against a bare loop over the engine's step.
 //!
-//! Both advance the same model from the same settled state, one control step (20 engine steps) an
+//! Both advance the same model from the same settled position, one control step (20 engine steps) an
 //! iteration. The ratio of the two medians is the figure that counts (goal: at least 0.95 of the
 //! bare loop's speed); the absolute numbers belong to the machine.
 
@@ -48,7 +48,7 @@ fn control_step(bencher: divan::Bencher) {
 
 #[divan::bench(sample_count = 300, sample_size = 4)]
 fn reference_bare_engine_loop(bencher: divan::Bencher) {
-    let mut data = settled().into_engine_data();
+    let mut data = world().at(&settled().snapshot());
     let steps = Regime::TORQUE_STUDY.steps_in(CONTROL_STEP);
     bencher.bench_local(|| {
         for _ in 0..steps {

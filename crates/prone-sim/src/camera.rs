@@ -9,37 +9,38 @@
 //! 1. one ray per pixel from the camera finds geom, point and normal (`trace`);
 //! 2. rays from the lamps find how much of the light reaches each of these points (`light`);
 //! 3. pixels beside an edge are cast again with more rays, and every ray is coloured (`shade`);
-//! 4. the silhouette is darkened, so that a white robot stands out on white paper (`outline`);
+//! 4. the silhouette is darkened, so that a white robot stands out on white paper;
 //! 5. plates and panels of a scene are laid over it as tinted glass (`glass`).
 //!
 //! Nothing is random and nothing depends on a clock: the same state gives the same bytes.
 
-mod eye;
 mod glass;
 mod light;
-mod outline;
 mod picture;
 mod shade;
 mod trace;
 
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use mujoco_rs::prelude::{MjData, MjModel};
 
 use prone::robot::{BodyId, Robot};
 
 pub use picture::{Picture, PictureError};
 
+use crate::engine_numbers::robot_body;
 use light::{Openness, Studio};
-use shade::{Looks, View};
+use shade::View;
 pub(crate) use trace::GLASS_GROUP;
-use trace::{Hit, Tracer};
+use trace::{Hit, SOLID, Tracer};
 
 /// Rays per pixel beside an edge.
-const RAYS_PER_EDGE_PIXEL: u32 = 16;
+const RAYS_PER_EDGE_PIXEL: usize = 16;
 /// Normals whose cosine is below this belong to two sides of an edge: 15°.
 const SMOOTH_COSINE: f64 = 0.966;
+/// The share of light that the line around the robot takes away.
+const OUTLINE_DARKNESS: f64 = 0.45;
 
 /// Length of the lying robot for which the lengths of pictures are written, here and in `prone-study`,
 /// m.
@@ -75,6 +76,9 @@ impl Camera {
     const SIDE_FOV: f64 = 0.21;
     /// The field of view from the corner, rad: the near hand is closer and lower in the picture.
     const CORNER_FOV: f64 = 0.25;
+    /// How far behind its place in the model a camera of the robot takes its pictures, m: that place
+    /// may be on the face, which touches the floor when the head is pitched down.
+    const EYE_DEPTH: f64 = 0.005;
 
     /// From the robot's right and slightly above: the robot crawls to the right.
     ///
@@ -93,6 +97,25 @@ impl Camera {
             scale,
             Self::CORNER_FOV,
         )
+    }
+
+    /// The first camera of the robot's model where it is now; `None` for a model without one.
+    ///
+    /// `data` must be up to date.
+    pub fn eye(data: &MjData<Arc<MjModel>>) -> Option<Self> {
+        let model = data.model();
+        // The engine keeps a matrix row by row.
+        let ground_from_eye = DMat3::from_cols_array(data.cam_xmat().first()?).transpose();
+        // In the engine a camera looks along -z, with +y up.
+        let DMat3 { y_axis, z_axis, .. } = ground_from_eye;
+        let position = DVec3::from_array(*data.cam_xpos().first()?) + Self::EYE_DEPTH * z_axis;
+        Some(Self {
+            position,
+            target: position - z_axis,
+            vertical_fov: model.cam_fovy().first()?.to_radians(),
+            up: y_axis,
+            inside: robot_body(*model.cam_bodyid().first()?),
+        })
     }
 
     fn from_direction(target: DVec3, direction: DVec3, scale: f64, vertical_fov: f64) -> Self {
@@ -128,54 +151,42 @@ impl Camera {
 /// because the engine casts rays with scratch memory of its own; the state does not change.
 pub fn ray_cast(data: &mut MjData<Arc<MjModel>>, camera: &Camera, size: (usize, usize)) -> Picture {
     let (width, height) = size;
-    let looks = Looks::of(data.model());
-    let has_glass = Looks::has_glass(data.model());
     let lens = Lens::new(camera, size);
-    let studio = Studio::around(camera);
+    let view = View::new(data.model(), Studio::around(camera), lens);
     let mut tracer = Tracer::new(data, camera.inside);
 
-    let hits = first_hits(&mut tracer, &lens);
-    let openness = studio.openness(&mut tracer, &hits, width);
-    let view = View {
-        looks: &looks,
-        studio: &studio,
-        camera,
-        pixel_angle: lens.pixel_angle(),
-    };
+    let row_of_hits = |row| view.lens.cast(&mut tracer, SOLID, row, 0..width, &[MIDDLE]);
+    let hits: Vec<Option<Hit>> = (0..height)
+        .flat_map(row_of_hits)
+        .map(|(_, hit)| hit)
+        .collect();
+    let openness = view.studio.openness(&mut tracer, &hits, width);
     let mut frame = Frame {
-        width,
-        height,
+        view,
         hits,
         openness,
         colours: Vec::new(),
         cover: Vec::new(),
     };
-    frame.colour_pixels(&view, &lens);
-    frame.refine_edges(&mut tracer, &view, &lens);
-    outline::draw(&mut frame.colours, &frame.cover, width);
-    if has_glass {
-        glass::draw(&mut frame, &mut tracer, &view, &lens);
-    }
+    frame.colour_pixels();
+    frame.refine_edges(&mut tracer);
+    frame.darken_outline();
+    frame.lay_glass(&mut tracer);
     Picture::from_linear(size, &frame.colours)
 }
 
-/// One ray through the middle of each pixel, row by row.
-fn first_hits(tracer: &mut Tracer<'_>, lens: &Lens) -> Vec<Option<Hit>> {
-    let mut hits = Vec::with_capacity(lens.width * lens.height);
-    for row in 0..lens.height {
-        let directions: Vec<DVec3> = (0..lens.width)
-            .map(|column| lens.direction(column, row, (0.5, 0.5)))
-            .collect();
-        hits.extend(tracer.hits(lens.position, &directions));
-    }
-    hits
-}
+/// A place in a pixel, from its upper left corner, (0..1, 0..1).
+type Place = (f64, f64);
+
+const MIDDLE: Place = (0.5, 0.5);
 
 /// Turns a place in the picture into a direction in the ground frame.
 struct Lens {
     width: usize,
     height: usize,
     position: DVec3,
+    /// From the camera to its target, m.
+    distance: f64,
     ahead: DVec3,
     /// One pixel to the right, at distance 1 ahead.
     right: DVec3,
@@ -191,6 +202,7 @@ impl Lens {
             width,
             height,
             position: camera.position,
+            distance: camera.position.distance(camera.target),
             ahead,
             right: right * pixel,
             down: -up * pixel,
@@ -202,18 +214,35 @@ impl Lens {
         self.right.length()
     }
 
-    /// The unit direction through a pixel, at the offset (0..1, 0..1) from its upper left corner.
-    fn direction(&self, column: usize, row: usize, (right, down): (f64, f64)) -> DVec3 {
+    /// The unit direction through a place of a pixel.
+    fn direction(&self, column: usize, row: usize, (right, down): Place) -> DVec3 {
         let from_middle_right = column as f64 + right - self.width as f64 / 2.0;
         let from_middle_down = row as f64 + down - self.height as f64 / 2.0;
         (self.ahead + from_middle_right * self.right + from_middle_down * self.down).normalize()
+    }
+
+    /// Casts rays through the same places of some pixels of a row: their directions and what each
+    /// meets in the groups, pixel by pixel.
+    fn cast(
+        &self,
+        tracer: &mut Tracer<'_>,
+        groups: [u8; 6],
+        row: usize,
+        columns: impl Iterator<Item = usize>,
+        places: &[Place],
+    ) -> Vec<(DVec3, Option<Hit>)> {
+        let directions: Vec<DVec3> = columns
+            .flat_map(|column| places.iter().map(move |&place| (column, place)))
+            .map(|(column, place)| self.direction(column, row, place))
+            .collect();
+        let hits = tracer.hits(groups, self.position, &directions);
+        directions.into_iter().zip(hits).collect()
     }
 }
 
 /// The picture while it is made; every vector holds one value per pixel, row by row.
 struct Frame {
-    width: usize,
-    height: usize,
+    view: View,
     hits: Vec<Option<Hit>>,
     openness: Vec<Openness>,
     colours: Vec<DVec3>,
@@ -223,54 +252,61 @@ struct Frame {
 
 impl Frame {
     /// Colours each pixel by the ray through its middle.
-    fn colour_pixels(&mut self, view: &View<'_>, lens: &Lens) {
+    fn colour_pixels(&mut self) {
+        let (view, width) = (&self.view, self.view.lens.width);
         for (pixel, (hit, &openness)) in self.hits.iter().zip(&self.openness).enumerate() {
-            let direction = lens.direction(pixel % self.width, pixel / self.width, (0.5, 0.5));
+            let direction = view.lens.direction(pixel % width, pixel / width, MIDDLE);
             self.colours
                 .push(view.colour(direction, hit.as_ref(), openness));
-            self.cover
-                .push(f64::from(u8::from(view.looks.is_subject(hit.as_ref()))));
+            self.cover.push(view.cover(hit.as_ref()));
         }
     }
 
     /// Replaces the pixels beside an edge by the mean of many rays.
-    fn refine_edges(&mut self, tracer: &mut Tracer<'_>, view: &View<'_>, lens: &Lens) {
-        for row in 0..self.height {
-            let columns: Vec<usize> = (0..self.width)
-                .filter(|&column| self.is_edge(column, row))
-                .collect();
-            let directions: Vec<DVec3> = columns
-                .iter()
-                .flat_map(|&column| {
-                    (0..RAYS_PER_EDGE_PIXEL).map(move |ray| (column, place_in_pixel(ray)))
-                })
-                .map(|(column, place)| lens.direction(column, row, place))
-                .collect();
-            let hits = tracer.hits(lens.position, &directions);
-            let rays = RAYS_PER_EDGE_PIXEL as usize;
-            for (column, (hits, directions)) in columns
-                .into_iter()
-                .zip(hits.chunks(rays).zip(directions.chunks(rays)))
-            {
+    fn refine_edges(&mut self, tracer: &mut Tracer<'_>) {
+        let places: [Place; RAYS_PER_EDGE_PIXEL] = std::array::from_fn(place_in_pixel);
+        let Lens { width, height, .. } = self.view.lens;
+        for row in 0..height {
+            let pixels = row * width..(row + 1) * width;
+            let edges: Vec<usize> = pixels.filter(|&pixel| self.is_edge(pixel)).collect();
+            let columns = edges.iter().map(|pixel| pixel % width);
+            let lens = &self.view.lens;
+            let rays = lens.cast(tracer, SOLID, row, columns, &places);
+            for (pixel, rays) in edges.into_iter().zip(rays.chunks(RAYS_PER_EDGE_PIXEL)) {
                 let mut colour = DVec3::ZERO;
-                let mut subjects = 0.0;
-                for (hit, &direction) in hits.iter().zip(directions) {
-                    let openness = self.openness_beside(column, row, hit.as_ref());
-                    colour += view.colour(direction, hit.as_ref(), openness);
-                    subjects += f64::from(u8::from(view.looks.is_subject(hit.as_ref())));
+                let mut cover = 0.0;
+                for (direction, hit) in rays {
+                    let openness = self.openness_beside(pixel, hit.as_ref());
+                    colour += self.view.colour(*direction, hit.as_ref(), openness);
+                    cover += self.view.cover(hit.as_ref());
                 }
-                let pixel = row * self.width + column;
-                self.colours[pixel] = colour / f64::from(RAYS_PER_EDGE_PIXEL);
-                self.cover[pixel] = subjects / f64::from(RAYS_PER_EDGE_PIXEL);
+                self.colours[pixel] = colour / RAYS_PER_EDGE_PIXEL as f64;
+                self.cover[pixel] = cover / RAYS_PER_EDGE_PIXEL as f64;
             }
         }
     }
 
+    /// Darkens the pixels on the border between subject and background: a thin line around the
+    /// robot, so that it stands out in print.
+    ///
+    /// The mean of the cover over 3 × 3 pixels, c, runs from 0 to 1 across a border, and 4c(1 − c) is
+    /// a line about two pixels wide wherever the border lies within its pixel.
+    fn darken_outline(&mut self) {
+        for pixel in 0..self.colours.len() {
+            let (mut sum, mut count) = (0.0, 0.0);
+            for other in self.neighbourhood(pixel) {
+                sum += self.cover[other];
+                count += 1.0;
+            }
+            let mean = sum / count;
+            self.colours[pixel] *= 1.0 - OUTLINE_DARKNESS * 4.0 * mean * (1.0 - mean);
+        }
+    }
+
     /// Whether a pixel and one of its neighbours show different surfaces.
-    fn is_edge(&self, column: usize, row: usize) -> bool {
-        let here = &self.hits[row * self.width + column];
-        self.neighbourhood(column, row)
-            .any(|pixel| match (here, &self.hits[pixel]) {
+    fn is_edge(&self, pixel: usize) -> bool {
+        self.neighbourhood(pixel)
+            .any(|other| match (&self.hits[pixel], &self.hits[other]) {
                 (None, None) => false,
                 (Some(a), Some(b)) => a.geom != b.geom || a.normal.dot(b.normal) < SMOOTH_COSINE,
                 _ => true,
@@ -279,37 +315,40 @@ impl Frame {
 
     /// The light that reaches a point seen within a pixel: that of the pixel in the neighbourhood
     /// which shows the same geom under the closest normal, else that of the pixel itself.
-    fn openness_beside(&self, column: usize, row: usize, hit: Option<&Hit>) -> Openness {
-        let alike = |pixel: usize| {
-            let (hit, other) = (hit?, self.hits[pixel].as_ref()?);
-            (hit.geom == other.geom).then(|| (hit.normal.dot(other.normal), pixel))
+    fn openness_beside(&self, pixel: usize, hit: Option<&Hit>) -> Openness {
+        let alike = |other: usize| {
+            let (hit, there) = (hit?, self.hits[other].as_ref()?);
+            (hit.geom == there.geom).then(|| (hit.normal.dot(there.normal), other))
         };
         let closest = self
-            .neighbourhood(column, row)
+            .neighbourhood(pixel)
             .filter_map(alike)
-            .max_by(|(a, _), (b, _)| a.total_cmp(b))
-            .map_or(row * self.width + column, |(_, pixel)| pixel);
-        self.openness[closest]
+            .max_by(|(a, _), (b, _)| a.total_cmp(b));
+        self.openness[closest.map_or(pixel, |(_, other)| other)]
     }
 
     /// The pixels at most one column and one row away, the pixel itself among them.
-    fn neighbourhood(&self, column: usize, row: usize) -> impl Iterator<Item = usize> + use<> {
-        let width = self.width;
-        let columns = column.saturating_sub(1)..(column + 2).min(width);
-        let rows = row.saturating_sub(1)..(row + 2).min(self.height);
-        rows.flat_map(move |row| columns.clone().map(move |column| row * width + column))
+    fn neighbourhood(&self, pixel: usize) -> impl Iterator<Item = usize> + use<> {
+        square(pixel, 1, self.view.lens.width, self.hits.len())
     }
 }
 
-/// The place of a ray in its pixel, (0..1, 0..1): Hammersley's points, no two of which share a
-/// column or a row, so that edges near the horizontal and the vertical get all their steps.
-fn place_in_pixel(ray: u32) -> (f64, f64) {
-    let count = f64::from(RAYS_PER_EDGE_PIXEL);
-    let mirrored = ray.reverse_bits() >> (u32::BITS - RAYS_PER_EDGE_PIXEL.ilog2());
-    (
-        (f64::from(ray) + 0.5) / count,
-        (f64::from(mirrored) + 0.5) / count,
-    )
+/// The pixels at most `reach` columns and rows away from one, itself among them, row by row; the
+/// picture has `count` pixels.
+fn square(pixel: usize, reach: usize, width: usize, count: usize) -> impl Iterator<Item = usize> {
+    let span =
+        |middle: usize, end: usize| middle.saturating_sub(reach)..(middle + reach + 1).min(end);
+    let columns = span(pixel % width, width);
+    span(pixel / width, count / width)
+        .flat_map(move |row| columns.clone().map(move |column| row * width + column))
+}
+
+/// The place of a ray in its pixel: Hammersley's points, no two of which share a column or a row, so
+/// that edges near the horizontal and the vertical get all their steps.
+fn place_in_pixel(ray: usize) -> Place {
+    let count = RAYS_PER_EDGE_PIXEL as f64;
+    let mirrored = ray.reverse_bits() >> (usize::BITS - RAYS_PER_EDGE_PIXEL.ilog2());
+    ((ray as f64 + 0.5) / count, (mirrored as f64 + 0.5) / count)
 }
 
 #[cfg(test)]

@@ -239,8 +239,7 @@ pub fn proceed<P: Pilot>(
     stopped: &dyn Fn() -> bool,
 ) -> Result<(Crawl, SimulatedRobot), CrawlError> {
     let mut metered = Metered {
-        meter: Meter::new(robot.simulation().world(), plan.detail),
-        start: robot.simulation().snapshot(),
+        meter: Meter::new(robot.simulation(), plan.detail),
         end: plan.end,
         stopped,
         was_stopped: false,
@@ -260,23 +259,11 @@ pub fn proceed<P: Pilot>(
     if metered.was_stopped {
         return Err(CrawlError::Stopped);
     }
-    let (record, snapshots) = metered.meter.finish();
     let arrived = match plan.end {
         End::Cycles(cycles) => crawler.cycles_done() == cycles,
         End::Past { .. } => metered.arrived,
     };
-    let crawl = Crawl {
-        start: metered.start,
-        cycles: record.cycles,
-        effort: record.effort,
-        tops: record.tops,
-        touches: record.touches,
-        stopped: robot.stopped(),
-        rows: record.rows,
-        snapshots,
-        arrived,
-        engine_steps: robot.simulation().steps(),
-    };
+    let crawl = metered.meter.finish(&robot, arrived);
     Ok((crawl, robot))
 }
 
@@ -301,7 +288,6 @@ fn in_simulation((cycle, gait): (usize, String), error: PortError) -> CrawlError
 /// Measures a crawl, and says when it is over.
 struct Metered<'a> {
     meter: Meter,
-    start: Snapshot,
     end: End,
     stopped: &'a dyn Fn() -> bool,
     was_stopped: bool,
@@ -330,12 +316,7 @@ impl<P: Pilot> Watch<SimulatedRobot, P> for Metered<'_> {
         let simulation = robot.simulation();
         for event in crawler.events() {
             match event {
-                Event::CycleBegan => {
-                    if crawler.cycles_done() == 0 {
-                        self.start = simulation.snapshot();
-                    }
-                    self.meter.begin_cycle(simulation, crawler.cycle());
-                }
+                Event::CycleBegan => self.meter.begin_cycle(simulation, crawler.cycle()),
                 Event::PhaseEnded(PhaseKind::ClosedChain) => self.meter.end_pull(simulation),
                 Event::PhaseEnded(PhaseKind::Waypoints) | Event::Ended(_) => {}
                 Event::CycleEnded => self.meter.end_cycle(simulation),

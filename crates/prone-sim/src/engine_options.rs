@@ -1,7 +1,6 @@
 //! What the compiled model of a world says about how it is simulated.
 
 use glam::DVec3;
-use mujoco_rs::prelude::*;
 
 use crate::world::World;
 
@@ -48,9 +47,9 @@ impl World {
             limit,
         });
         EngineOptions {
-            integrator: integrator(options.integrator),
-            solver: solver(options.solver),
-            cone: cone(options.cone),
+            integrator: name(&INTEGRATORS, options.integrator),
+            solver: name(&SOLVERS, options.solver),
+            cone: name(&CONES, options.cone),
             iterations: usize::try_from(options.iterations).unwrap_or(0),
             tolerance: options.tolerance,
             time_step: options.timestep,
@@ -61,40 +60,15 @@ impl World {
     }
 }
 
-fn integrator(number: i32) -> &'static str {
-    const EULER: i32 = MjtIntegrator::mjINT_EULER as i32;
-    const RK4: i32 = MjtIntegrator::mjINT_RK4 as i32;
-    const IMPLICIT: i32 = MjtIntegrator::mjINT_IMPLICIT as i32;
-    const IMPLICIT_FAST: i32 = MjtIntegrator::mjINT_IMPLICITFAST as i32;
-    match number {
-        EULER => "Euler",
-        RK4 => "RK4",
-        IMPLICIT => "implicit",
-        IMPLICIT_FAST => "implicitfast",
-        _ => "unknown",
-    }
-}
+/// Names in the engine's model files, by the engine's number.
+const INTEGRATORS: [&str; 4] = ["Euler", "RK4", "implicit", "implicitfast"];
+const SOLVERS: [&str; 3] = ["PGS", "CG", "Newton"];
+const CONES: [&str; 2] = ["pyramidal", "elliptic"];
 
-fn solver(number: i32) -> &'static str {
-    const PGS: i32 = MjtSolver::mjSOL_PGS as i32;
-    const CG: i32 = MjtSolver::mjSOL_CG as i32;
-    const NEWTON: i32 = MjtSolver::mjSOL_NEWTON as i32;
-    match number {
-        PGS => "PGS",
-        CG => "CG",
-        NEWTON => "Newton",
-        _ => "unknown",
-    }
-}
-
-fn cone(number: i32) -> &'static str {
-    const PYRAMIDAL: i32 = MjtCone::mjCONE_PYRAMIDAL as i32;
-    const ELLIPTIC: i32 = MjtCone::mjCONE_ELLIPTIC as i32;
-    match number {
-        PYRAMIDAL => "pyramidal",
-        ELLIPTIC => "elliptic",
-        _ => "unknown",
-    }
+fn name(names: &[&'static str], number: i32) -> &'static str {
+    let index = usize::try_from(number).ok();
+    let name = index.and_then(|index| names.get(index));
+    name.copied().unwrap_or("unknown")
 }
 
 #[cfg(test)]

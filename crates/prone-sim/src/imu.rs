@@ -18,7 +18,8 @@ use glam::DVec3;
 use mujoco_rs::prelude::*;
 
 use prone::attitude::ImuReading;
-use prone::robot::{Imu, SensorNoise};
+use prone::frames::{Root, Sensor, Transform};
+use prone::robot::SensorNoise;
 
 use crate::simulation::Simulation;
 use crate::world::World;
@@ -26,18 +27,19 @@ use crate::world::World;
 /// Reads the inertial unit of a [`Simulation`]; the same seed gives the same errors.
 #[derive(Debug, Clone)]
 pub struct SimulatedImu {
-    imu: Imu,
-    /// Where three numbers of each begin among the engine's readings.
-    addresses: Addresses,
-    accelerometer_bias: DVec3,
-    gyroscope_bias: DVec3,
+    root_from_sensor: Transform<Root, Sensor>,
+    accelerometer: SimulatedSensor,
+    gyroscope: SimulatedSensor,
     random: Random,
 }
 
-#[derive(Debug, Clone, Copy)]
-struct Addresses {
-    accelerometer: usize,
-    gyroscope: usize,
+/// The accelerometer or the gyroscope.
+#[derive(Debug, Clone)]
+struct SimulatedSensor {
+    /// Where its three numbers begin among the engine's readings.
+    address: usize,
+    bias: DVec3,
+    standard_deviation: f64,
 }
 
 /// Why a robot has no attitude.
@@ -61,49 +63,49 @@ impl SimulatedImu {
         let none = || ImuError::NoImu {
             robot: robot.name.clone(),
         };
-        let imu = robot.imu.clone().ok_or_else(none)?;
-        let addresses = addresses(&world.model, &imu).ok_or_else(none)?;
+        let imu = robot.imu.as_ref().ok_or_else(none)?;
         let mut random = Random(seed);
+        let mut sensor = |kind, noise: SensorNoise| {
+            // The loader has made sure of both sensors.
+            let address = address(&world.model, &imu.site, kind).ok_or_else(none)?;
+            Ok(SimulatedSensor {
+                address,
+                bias: random.bias(noise.bias_bound),
+                standard_deviation: noise.standard_deviation,
+            })
+        };
         Ok(Self {
-            accelerometer_bias: random.bias(imu.accelerometer),
-            gyroscope_bias: random.bias(imu.gyroscope),
-            imu,
-            addresses,
+            root_from_sensor: imu.root_from_sensor,
+            accelerometer: sensor(MjtSensor::mjSENS_ACCELEROMETER, imu.accelerometer)?,
+            gyroscope: sensor(MjtSensor::mjSENS_GYRO, imu.gyroscope)?,
             random,
         })
     }
 
-    /// One sample, of the beginning of the simulation's last engine step.
+    /// One sample, of the beginning of the simulation's last engine step. Read once per control
+    /// step, and not after each engine step, it misses jolts.
     pub fn read(&mut self, simulation: &Simulation) -> ImuReading {
         let readings = simulation.sensor_readings();
-        let truth = |start: usize| DVec3::from_slice(&readings[start..start + 3]);
-        let specific_force = truth(self.addresses.accelerometer)
-            + self.accelerometer_bias
-            + self.random.noise(self.imu.accelerometer);
-        let angular_velocity = truth(self.addresses.gyroscope)
-            + self.gyroscope_bias
-            + self.random.noise(self.imu.gyroscope);
-        let root_from_sensor = &self.imu.root_from_sensor;
+        let mut sample = |sensor: &SimulatedSensor| {
+            let truth = DVec3::from_slice(&readings[sensor.address..][..3]);
+            truth + sensor.bias + self.random.noise(sensor.standard_deviation)
+        };
+        let specific_force = sample(&self.accelerometer);
+        let angular_velocity = sample(&self.gyroscope);
         ImuReading {
-            angular_velocity: root_from_sensor.rotate(angular_velocity),
-            specific_force: root_from_sensor.rotate(specific_force),
+            angular_velocity: self.root_from_sensor.rotate(angular_velocity),
+            specific_force: self.root_from_sensor.rotate(specific_force),
         }
     }
 }
 
-/// The sensors at the inertial unit's site; the loader has made sure of both.
-fn addresses(model: &MjModel, imu: &Imu) -> Option<Addresses> {
-    let imu = model.name_to_id(MjtObjBase::mjOBJ_SITE, &imu.site)?;
-    let address = |wanted| {
-        let mut sensors = model.sensor_type().iter().zip(model.sensor_objid());
-        let index = sensors
-            .position(|(&kind, &site)| kind == wanted && usize::try_from(site) == Ok(imu))?;
-        usize::try_from(model.sensor_adr()[index]).ok()
-    };
-    Some(Addresses {
-        accelerometer: address(MjtSensor::mjSENS_ACCELEROMETER)?,
-        gyroscope: address(MjtSensor::mjSENS_GYRO)?,
-    })
+/// Where the readings of a kind of sensor at a site begin.
+fn address(model: &MjModel, site: &str, wanted: MjtSensor) -> Option<usize> {
+    let site = model.name_to_id(MjtObjBase::mjOBJ_SITE, site)?;
+    let mut sensors = model.sensor_type().iter().zip(model.sensor_objid());
+    let index =
+        sensors.position(|(&kind, &at)| kind == wanted && usize::try_from(at) == Ok(site))?;
+    usize::try_from(model.sensor_adr()[index]).ok()
 }
 
 /// `SplitMix64` (Steele, Lea and Flood 2014), whose sequence never changes. The optimisers have a
@@ -132,14 +134,12 @@ impl Random {
         radius * (TAU * self.uniform()).cos()
     }
 
-    fn bias(&mut self, noise: SensorNoise) -> DVec3 {
-        let axes = [(); 3].map(|()| noise.bias_bound * (2.0 * self.uniform() - 1.0));
-        DVec3::from_array(axes)
+    fn bias(&mut self, bound: f64) -> DVec3 {
+        DVec3::from_array([(); 3].map(|()| bound * (2.0 * self.uniform() - 1.0)))
     }
 
-    fn noise(&mut self, noise: SensorNoise) -> DVec3 {
-        let axes = [(); 3].map(|()| noise.standard_deviation * self.normal());
-        DVec3::from_array(axes)
+    fn noise(&mut self, standard_deviation: f64) -> DVec3 {
+        DVec3::from_array([(); 3].map(|()| standard_deviation * self.normal()))
     }
 }
 

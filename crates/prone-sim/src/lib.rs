@@ -14,6 +14,7 @@ pub mod camera;
 pub mod crawl;
 pub mod driven;
 mod engine_log;
+mod engine_numbers;
 mod engine_options;
 pub mod imu;
 mod load;
@@ -25,11 +26,9 @@ mod simulation;
 mod world;
 
 pub use engine_options::{EngineOptions, EngineServo};
-pub use load::{LoadError, LoadedRobot, ModelProblem, RobotFiles};
+pub use load::{LoadError, LoadedRobot, RobotFiles};
 pub use model_view::{InertiaView, ShapeView};
-pub use simulation::{
-    ObstacleContact, Placement, Simulation, SimulationError, Snapshot, StepMeans,
-};
+pub use simulation::{Placement, Simulation, SimulationError, Snapshot, StepMeans};
 pub use world::{World, WorldError};
 
 /// The version of the engine that is linked, as it reports itself.

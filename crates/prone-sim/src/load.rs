@@ -13,10 +13,8 @@ mod limbs;
 mod lookup;
 mod markup;
 mod model;
-mod problem;
 mod tables;
 
-pub use problem::ModelProblem;
 pub use prone_files::robot_folder::RobotFiles;
 
 use std::sync::Arc;
@@ -40,27 +38,17 @@ pub struct LoadedRobot {
 /// Why a robot cannot be loaded.
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
-    /// `robot.toml` is malformed, or names what the model lacks.
+    /// `robot.toml` is malformed, or names what the model lacks, or the model's text holds what is not
+    /// read here.
     #[error(transparent)]
-    Toml(#[from] FileError),
-    /// The model's text holds what is not read here.
-    #[error(transparent)]
-    Markup(FileError),
-    /// The engine refuses the model; its message carries the line.
+    File(#[from] FileError),
+    /// The engine refuses the model, or it is valid, but not a robot that can crawl here.
     #[error("{file}: {message}")]
-    Mjcf {
-        /// The model file.
-        file: String,
-        /// The engine's message.
-        message: String,
-    },
-    /// The model is valid, but not a robot that can crawl here.
-    #[error("{file}: {problem}")]
     Model {
         /// The model file.
         file: String,
-        /// What is missing or not understood.
-        problem: ModelProblem,
+        /// The engine's message, which carries the line, or what is missing or not understood.
+        message: String,
     },
 }
 
@@ -75,19 +63,16 @@ impl LoadedRobot {
         let table = RobotFile::parse(&toml_name, &files.toml)?;
         robot_folder::check_model_name(&toml_name, &files.toml, &table.model)?;
         let mjcf_name = format!("{}/{}", files.folder, table.model.get_ref());
-        markup::check(&mjcf_name, &files.mjcf).map_err(LoadError::Markup)?;
+        markup::check(&mjcf_name, &files.mjcf)?;
 
-        let refused = |error: MjEditError| LoadError::Mjcf {
+        let refused = |message| LoadError::Model {
             file: mjcf_name.clone(),
-            message: one_line(&error.to_string()),
+            message,
         };
         let model = MjSpec::from_xml_string(&files.mjcf)
             .and_then(|mut spec| spec.compile())
-            .map_err(refused)?;
-        let parts = model::read(&model).map_err(|problem| LoadError::Model {
-            file: mjcf_name.clone(),
-            problem,
-        })?;
+            .map_err(|error| refused(one_line(&error.to_string())))?;
+        let parts = model::read(&model).map_err(refused)?;
         let robot = lookup::Lookup {
             file: &toml_name,
             text: &files.toml,
@@ -108,9 +93,5 @@ impl LoadedRobot {
     /// Where it came from.
     pub const fn files(&self) -> &RobotFiles {
         &self.files
-    }
-
-    pub(crate) fn mjcf(&self) -> &str {
-        &self.files.mjcf
     }
 }

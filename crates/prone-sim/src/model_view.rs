@@ -5,6 +5,7 @@ use mujoco_rs::prelude::*;
 
 use prone::robot::BodyId;
 
+use crate::engine_numbers::{collides, rotation};
 use crate::world::{GeomRole, World};
 
 /// A shape of the robot as the engine has it, whether it collides or is only seen.
@@ -45,9 +46,9 @@ impl World {
         moments
             .zip(turns)
             .skip(1) // the world
-            .map(|(&principal, &[w, x, y, z])| InertiaView {
+            .map(|(&principal, &turn)| InertiaView {
                 principal: DVec3::from_array(principal),
-                rotation: DQuat::from_xyzw(x, y, z, w),
+                rotation: rotation(turn),
             })
             .collect()
     }
@@ -70,16 +71,15 @@ impl World {
                 MjtGeomBase::mjGEOM_BOX => ("box", vec![x, y, z]),
                 _ => return None,
             };
-            let [w, qx, qy, qz] = model.geom_quat()[index];
             Some(ShapeView {
                 body,
                 kind,
                 size,
                 position: DVec3::from_array(model.geom_pos()[index]),
-                rotation: DQuat::from_xyzw(qx, qy, qz, w),
+                rotation: rotation(model.geom_quat()[index]),
                 colour: self.colour(index),
                 group: model.geom_group()[index],
-                collides: model.geom_contype()[index] != 0 || model.geom_conaffinity()[index] != 0,
+                collides: collides(model, index),
             })
         });
         views.collect()

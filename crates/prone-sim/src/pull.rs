@@ -135,7 +135,7 @@ pub fn plan(
         world.stops(),
         gait,
         duration,
-        control_steps(duration),
+        whole_steps(duration.seconds()),
     )
 }
 
@@ -274,10 +274,6 @@ fn due(index: usize, count: usize, steps: usize) -> usize {
     } else {
         index * steps / (count - 1)
     }
-}
-
-fn control_steps(duration: PhaseDuration) -> usize {
-    whole_steps(duration.seconds())
 }
 
 #[expect(

@@ -18,35 +18,24 @@ use std::sync::Arc;
 
 use mujoco_rs::prelude::*;
 
-use prone::robot::{BodyId, JointAngles, JointId, Robot, Shape};
+use prone::robot::{BodyId, JointAngles, JointId, Robot};
 
+use crate::engine_numbers::{FREE_JOINT, collides, robot_body};
 use crate::world::World;
 
 /// Farther apart the engine does not look, m: a robot's coordinates are within 10 m, and no robot
 /// has a hundred links in a row.
 const FARTHEST: f64 = 1e3;
 
-/// Coordinates of a free root.
-const FREE_JOINT: usize = 7;
-
-/// The engine's body 0 is the world.
-const WORLD_BODIES: usize = 1;
-
 /// Measures postures of the robot of one world.
 #[derive(Debug, Clone)]
 pub struct SelfCollision {
     robot: Arc<Robot>,
     data: MjData<Arc<MjModel>>,
-    pairs: Vec<Pair>,
-}
-
-/// Two shapes that may meet.
-#[derive(Debug, Clone, Copy)]
-struct Pair {
-    /// Indices in [`Robot::shapes`].
-    shapes: [usize; 2],
-    /// Indices in the engine's model.
-    geoms: [usize; 2],
+    /// Pairs of shapes that may meet, as indices in [`Robot::shapes`].
+    pairs: Vec<[usize; 2]>,
+    /// The engine's geom of every shape.
+    geoms: Vec<usize>,
 }
 
 /// A part of the robot that moves by itself.
@@ -71,29 +60,13 @@ const LIMB_PAIRS: [(Limb, Limb); 8] = [
     (Limb::RightArm, Limb::RightLeg),
 ];
 
-/// The two shapes that are nearest to one another.
+/// The two shapes of a sequence of postures that come nearest to one another.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Closest {
+pub struct Nearest {
     /// Their names.
     pub shapes: (String, String),
     /// Between their surfaces, m; negative where they overlap.
     pub distance_m: f64,
-}
-
-/// A sequence of postures.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Scan {
-    /// The nearest pair of all postures, and in which it was.
-    pub closest: Near,
-    /// Every pair that came nearer than the margin, each where it was nearest, nearest pair first.
-    pub within_margin: Vec<Near>,
-}
-
-/// A pair of shapes where it is nearest.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Near {
-    /// The pair and its distance.
-    pub closest: Closest,
     /// The posture's place in the sequence.
     pub index: usize,
 }
@@ -141,17 +114,15 @@ impl SelfCollision {
     /// [`SelfCollisionError::NoPairs`].
     pub fn new(world: &World) -> Result<Self, SelfCollisionError> {
         let robot = world.shared_robot();
-        let geoms = geoms(&world.model, &robot);
-        let limbs: Vec<Option<Limb>> = limbs(&robot);
+        let limbs = limbs(&robot);
+        let shapes_of = |limb: Limb| -> Vec<usize> {
+            let belongs = |&shape: &usize| limbs[robot.shapes[shape].body.0] == Some(limb);
+            (0..robot.shapes.len()).filter(belongs).collect()
+        };
         let mut pairs = Vec::new();
         for (one, other) in LIMB_PAIRS {
-            for first in shapes_of(&robot, &limbs, one) {
-                for second in shapes_of(&robot, &limbs, other) {
-                    pairs.push(Pair {
-                        shapes: [first, second],
-                        geoms: [geoms[first], geoms[second]],
-                    });
-                }
+            for first in shapes_of(one) {
+                pairs.extend(shapes_of(other).into_iter().map(|second| [first, second]));
             }
         }
         if pairs.is_empty() {
@@ -161,36 +132,47 @@ impl SelfCollision {
         }
         Ok(Self {
             data: MjData::new(Arc::clone(&world.model)),
+            geoms: geoms(&world.model, &robot),
             robot,
             pairs,
         })
     }
 
-    /// The two nearest shapes in a posture. Limits are not looked at.
-    ///
-    /// # Errors
-    /// [`SelfCollisionError::JointCount`], [`SelfCollisionError::NotFinite`].
-    pub fn closest(&mut self, posture: &JointAngles) -> Result<Closest, SelfCollisionError> {
-        Ok(self.scan([posture], f64::NEG_INFINITY)?.closest.closest)
-    }
-
-    /// The nearest pair in a sequence of postures, and all pairs that come nearer than a margin, m.
-    /// What happens between two postures is not seen.
+    /// The nearest pair in a sequence of postures. What happens between two postures is not seen, and
+    /// limits are not looked at.
     ///
     /// # Errors
     /// [`SelfCollisionError`].
     pub fn scan<'a>(
         &mut self,
         postures: impl IntoIterator<Item = &'a JointAngles>,
-        margin_m: f64,
-    ) -> Result<Scan, SelfCollisionError> {
-        // The first of equals, in posture and pair.
+    ) -> Result<Nearest, SelfCollisionError> {
+        let distances = self.distances(postures)?.into_iter();
+        let nearest = distances
+            .zip(&self.pairs)
+            .min_by(|((one, _), _), ((other, _), _)| one.total_cmp(other));
+        let Some(((distance_m, index), pair)) = nearest else {
+            unreachable!("there are pairs");
+        };
+        let [one, other] = pair.map(|shape| self.robot.shapes[shape].name.clone());
+        Ok(Nearest {
+            shapes: (one, other),
+            distance_m,
+            index,
+        })
+    }
+
+    /// How near each pair comes, m, and in which posture: the first of equals.
+    fn distances<'a>(
+        &mut self,
+        postures: impl IntoIterator<Item = &'a JointAngles>,
+    ) -> Result<Vec<(f64, usize)>, SelfCollisionError> {
         let mut nearest = vec![(f64::INFINITY, 0); self.pairs.len()];
         let mut count = 0;
         for (index, posture) in postures.into_iter().enumerate() {
             self.place(posture, index)?;
             for (pair, nearest) in self.pairs.iter().zip(&mut nearest) {
-                let [one, other] = pair.geoms;
+                let [one, other] = pair.map(|shape| self.geoms[shape]);
                 let distance = self.data.geom_distance(one, other, FARTHEST, None);
                 if distance < nearest.0 {
                     *nearest = (distance, index);
@@ -201,28 +183,7 @@ impl SelfCollision {
         if count == 0 {
             return Err(SelfCollisionError::NoPostures);
         }
-        let mut order: Vec<usize> = (0..self.pairs.len()).collect();
-        order.sort_by(|&one, &other| nearest[one].0.total_cmp(&nearest[other].0));
-        let near = |pair: usize| {
-            let (distance_m, index) = nearest[pair];
-            let [one, other] = self.pairs[pair].shapes;
-            let name = |shape: usize| self.robot.shapes[shape].name.clone();
-            Near {
-                closest: Closest {
-                    shapes: (name(one), name(other)),
-                    distance_m,
-                },
-                index,
-            }
-        };
-        Ok(Scan {
-            closest: near(order[0]),
-            within_margin: order
-                .iter()
-                .take_while(|&&pair| nearest[pair].0 < margin_m)
-                .map(|&pair| near(pair))
-                .collect(),
-        })
+        Ok(nearest)
     }
 
     /// Moves the engine's geoms to a posture; the root stays where the model has it.
@@ -251,12 +212,8 @@ impl SelfCollision {
 
 /// The engine's geom of every shape: both are in the model's order, the world's geoms apart.
 fn geoms(model: &MjModel, robot: &Robot) -> Vec<usize> {
-    let bodies = WORLD_BODIES..WORLD_BODIES + robot.bodies.len();
-    let of_robot = |&geom: &usize| {
-        let body = usize::try_from(model.geom_bodyid()[geom]);
-        let collides = model.geom_contype()[geom] != 0 || model.geom_conaffinity()[geom] != 0;
-        collides && body.is_ok_and(|body| bodies.contains(&body))
-    };
+    let of_robot =
+        |&geom: &usize| collides(model, geom) && robot_body(model.geom_bodyid()[geom]).is_some();
     let geoms: Vec<usize> = (0..model.geom_bodyid().len()).filter(of_robot).collect();
     debug_assert_eq!(geoms.len(), robot.shapes.len());
     debug_assert!(geoms.iter().zip(&robot.shapes).all(|(&geom, shape)| {
@@ -265,11 +222,6 @@ fn geoms(model: &MjModel, robot: &Robot) -> Vec<usize> {
             .is_none_or(|name| name == shape.name)
     }));
     geoms
-}
-
-fn shapes_of(robot: &Robot, limbs: &[Option<Limb>], limb: Limb) -> impl Iterator<Item = usize> {
-    let belongs = move |shape: &Shape| limbs[shape.body.0] == Some(limb);
-    (0..robot.shapes.len()).filter(move |&index| belongs(&robot.shapes[index]))
 }
 
 /// The limb of every body; `None` for trunk and pelvis.

@@ -33,8 +33,6 @@ pub struct Settled {
     pub angles: JointAngles,
     /// Pose of the root.
     pub ground_from_root: Transform<Ground, Root>,
-    /// Time until it was still, s.
-    pub duration: f64,
 }
 
 /// Why a pose has no settled torques.
@@ -64,7 +62,7 @@ pub fn settle(world: &World, placement: &Placement) -> Result<Settled, SettleErr
     let mut simulation = Simulation::new(world, placement);
     let mut means = simulation.control_step()?;
     let mut change = f64::INFINITY;
-    for step in 2..=MOST_STEPS {
+    for _ in 2..=MOST_STEPS {
         let next = simulation.control_step()?;
         change = largest_change(&means, &next);
         means = next;
@@ -73,7 +71,6 @@ pub fn settle(world: &World, placement: &Placement) -> Result<Settled, SettleErr
                 means,
                 angles: simulation.joint_angles(),
                 ground_from_root: simulation.ground_from_root(),
-                duration: step as f64 * CONTROL_STEP,
             });
         }
     }

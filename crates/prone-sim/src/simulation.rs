@@ -5,20 +5,14 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 use mujoco_rs::prelude::*;
 
-use prone::frames::{Ground, Link, Point, Root, Transform};
-use prone::robot::{BodyPoses, ContactGroup, JointAngles, Robot};
+use prone::frames::{Ground, Point, Root, Transform};
+use prone::robot::{BodyPoses, JointAngles, Robot};
 
+use crate::engine_numbers::{FREE_JOINT, FREE_JOINT_SPEEDS, real_first, rotation};
 use crate::world::World;
 use prone::regime::CONTROL_STEP;
 
 mod contacts;
-
-pub use contacts::ObstacleContact;
-
-/// Coordinates of a free root: position and quaternion.
-const FREE_JOINT: usize = 7;
-/// Speeds of a free root: three linear, three angular.
-const FREE_JOINT_SPEEDS: usize = 6;
 
 /// A robot moving in a world. A clone goes on to the same bits as the original.
 #[derive(Debug, Clone)]
@@ -79,9 +73,9 @@ impl Simulation {
         let poses =
             robot.forward_kinematics(Transform::<Ground, Root>::new(turn, DVec3::ZERO), &angles);
         let height = -robot.bottom(&poses, |_| true);
-        let qpos = data.qpos_mut();
-        qpos[..FREE_JOINT].copy_from_slice(&[0.0, 0.0, height, turn.w, turn.x, turn.y, turn.z]);
-        qpos[FREE_JOINT..].copy_from_slice(angles.as_slice());
+        let ground_from_root = Transform::new(turn, DVec3::new(0.0, 0.0, height));
+        let Snapshot(position) = Snapshot::new(ground_from_root, &angles);
+        data.qpos_mut().copy_from_slice(&position);
         data.forward();
         let servo = world.regime().servo;
         let gains = robot.joints.iter().map(|joint| servo.gain(joint)).collect();
@@ -120,18 +114,6 @@ impl Simulation {
     /// # Errors
     /// [`SimulationError::Diverged`].
     pub fn control_step(&mut self) -> Result<StepMeans, SimulationError> {
-        self.control_step_with(|_| ())
-    }
-
-    /// One control step, with a look after each of its engine steps: for [`crate::imu`], which
-    /// misses jolts when it reads once per control step.
-    ///
-    /// # Errors
-    /// [`SimulationError::Diverged`].
-    pub fn control_step_with(
-        &mut self,
-        mut after_engine_step: impl FnMut(&Self),
-    ) -> Result<StepMeans, SimulationError> {
         let mut means = StepMeans {
             actuator_torque: vec![0.0; self.reference.len()],
             contact: [0.0; 4],
@@ -139,7 +121,6 @@ impl Simulation {
         let steps = self.world.regime().steps_in(CONTROL_STEP);
         for _ in 0..steps {
             self.step();
-            after_engine_step(self);
             for (sum, torque) in means
                 .actuator_torque
                 .iter_mut()
@@ -149,8 +130,7 @@ impl Simulation {
             }
             self.add_contacts(&mut means.contact);
         }
-        let sums = means.actuator_torque.iter_mut().chain(&mut means.contact);
-        for sum in sums {
+        for sum in means.actuator_torque.iter_mut().chain(&mut means.contact) {
             *sum /= steps as f64;
         }
         self.check()?;
@@ -187,12 +167,6 @@ impl Simulation {
     /// Length of one engine step, s.
     pub const fn time_step(&self) -> f64 {
         self.world.regime().time_step
-    }
-
-    /// Whether a whole number of periods, s, has just passed.
-    pub fn steps_are_due(&self, period: f64) -> bool {
-        self.steps
-            .is_multiple_of(self.world.regime().steps_in(period))
     }
 
     /// Normal force of the ground now by [`ContactGroup::ALL`], both sides together, N.
@@ -234,24 +208,6 @@ impl Simulation {
             .forward_kinematics(self.ground_from_root(), &self.joint_angles())
     }
 
-    /// Poses of all bodies as the engine has them after its last step; for cross-checks.
-    pub fn engine_body_poses(&mut self) -> BodyPoses<Ground> {
-        self.data.forward();
-        let poses = self
-            .data
-            .xpos()
-            .iter()
-            .zip(self.data.xquat())
-            .skip(1) // the world
-            .map(|(&position, &[w, x, y, z])| {
-                Transform::<Ground, Link>::new(
-                    DQuat::from_xyzw(x, y, z, w),
-                    DVec3::from_array(position),
-                )
-            });
-        BodyPoses::from_vec(poses.collect())
-    }
-
     /// The position now, for [`crate::camera`].
     pub fn snapshot(&self) -> Snapshot {
         Snapshot(self.data.qpos().to_vec())
@@ -260,11 +216,6 @@ impl Simulation {
     /// The readings of the model's sensors, as of the beginning of the last engine step.
     pub(crate) fn sensor_readings(&self) -> &[f64] {
         self.data.sensordata()
-    }
-
-    /// The engine's own data, to go on without this crate's servos and records.
-    pub fn into_engine_data(self) -> MjData<Arc<MjModel>> {
-        self.data
     }
 
     /// Engine steps done so far.
@@ -278,38 +229,33 @@ impl Simulation {
         for contact in self.contacts() {
             if self.world.is_ground(contact.with) {
                 let body = &self.robot().bodies[contact.body.0];
-                sums[group_index(body.contact_group)] += contact.normal();
+                sums[body.contact_group as usize] += contact.normal();
             }
         }
     }
 
     /// Whether position and speed still are numbers that the engine accepts.
     pub(crate) fn check(&self) -> Result<(), SimulationError> {
-        let warned = [
+        let mut warnings = [
             MjtWarning::mjWARN_BADQPOS,
             MjtWarning::mjWARN_BADQVEL,
             MjtWarning::mjWARN_BADQACC,
         ]
-        .iter()
-        .any(|&warning| self.data.warning()[warning as usize].number > 0);
-        if warned {
-            return Err(SimulationError::Diverged {
-                time_s: self.time(),
-            });
+        .into_iter();
+        if warnings.any(|warning| self.data.warning()[warning as usize].number > 0) {
+            let time_s = self.time();
+            return Err(SimulationError::Diverged { time_s });
         }
         Ok(())
     }
 }
 
-/// The engine keeps a free joint as position, then quaternion with its real part first.
+/// The pose of the free root in a position of the engine.
 fn root_pose(qpos: &[f64]) -> Transform<Ground, Root> {
-    let [x, y, z, qw, qx, qy, qz] = qpos[..FREE_JOINT] else {
+    let Some(&[x, y, z, w, i, j, k]) = qpos.first_chunk::<FREE_JOINT>() else {
         unreachable!("a world has a robot with a free root");
     };
-    Transform::new(
-        DQuat::from_xyzw(qx, qy, qz, qw).normalize(),
-        DVec3::new(x, y, z),
-    )
+    Transform::new(rotation([w, i, j, k]).normalize(), DVec3::new(x, y, z))
 }
 
 /// The joint angles of a position in the engine, after those of the free root.
@@ -321,38 +267,23 @@ fn posture(robot: &Robot, qpos: &[f64]) -> JointAngles {
 impl Snapshot {
     /// A position that was recorded.
     pub fn new(ground_from_root: Transform<Ground, Root>, angles: &JointAngles) -> Self {
-        let (at, turn) = (
-            ground_from_root.origin().metres(),
-            ground_from_root.rotation(),
-        );
-        let mut position = vec![at.x, at.y, at.z, turn.w, turn.x, turn.y, turn.z];
-        position.extend_from_slice(angles.as_slice());
-        Self(position)
-    }
-
-    fn parts(&self, robot: &Robot) -> (Transform<Ground, Root>, JointAngles) {
-        (root_pose(&self.0), posture(robot, &self.0))
-    }
-}
-
-const fn group_index(group: ContactGroup) -> usize {
-    match group {
-        ContactGroup::Toe => 0,
-        ContactGroup::Elbow => 1,
-        ContactGroup::Torso => 2,
-        ContactGroup::Leg => 3,
+        let at = ground_from_root.origin().metres().to_array();
+        let turn = real_first(ground_from_root.rotation());
+        Self([&at, &turn[..], angles.as_slice()].concat())
     }
 }
 
 impl World {
     /// Centre of mass of the robot at a snapshot.
     pub fn centre_of_mass(&self, snapshot: &Snapshot) -> Point<Ground> {
-        let (ground_from_root, angles) = snapshot.parts(self.robot());
-        let poses = self.robot().forward_kinematics(ground_from_root, &angles);
-        self.robot().centre_of_mass(&poses)
+        let robot = self.robot();
+        let Snapshot(position) = snapshot;
+        let poses = robot.forward_kinematics(root_pose(position), &posture(robot, position));
+        robot.centre_of_mass(&poses)
     }
 
-    /// The engine's data at a snapshot, for [`crate::camera::ray_cast`].
+    /// The engine's data at a snapshot, for [`crate::camera::ray_cast`] and for comparisons with the
+    /// engine alone.
     pub fn at(&self, snapshot: &Snapshot) -> MjData<Arc<MjModel>> {
         let mut data = MjData::new(Arc::clone(&self.model));
         data.qpos_mut().copy_from_slice(&snapshot.0);

@@ -14,6 +14,7 @@ use prone::scene::{Obstacle, Scene, SceneError};
 use prone::statics::GRAVITY;
 
 use crate::engine_log;
+use crate::engine_numbers::robot_body;
 use crate::load::LoadedRobot;
 use prone::regime::{self, Effort, Regime, Stops};
 use scenery::Scenery;
@@ -101,7 +102,7 @@ impl World {
             Stops::Maker => robot.stops(),
             Stops::Study => robot.study_stops(),
         };
-        let scenery = Scenery::of(scene);
+        let scenery = Scenery::from_scene(scene);
         let model =
             compile(loaded, regime, &stops, &scenery).map_err(|error| WorldError::Compile {
                 robot: robot.name.clone(),
@@ -170,15 +171,9 @@ fn geom_roles(model: &MjModel, scenery: &Scenery) -> Vec<GeomRole> {
     let mut scenery = scenery.roles().into_iter();
     let bodies = model.geom_bodyid().iter();
     bodies
-        .map(|&body| {
-            // The engine's body 0 is the world; the robot's bodies follow in order.
-            match usize::try_from(body)
-                .ok()
-                .and_then(|body| body.checked_sub(1))
-            {
-                Some(index) => GeomRole::Robot(BodyId(index)),
-                None => scenery.next().unwrap_or(GeomRole::Floor),
-            }
+        .map(|&body| match robot_body(body) {
+            Some(body) => GeomRole::Robot(body),
+            None => scenery.next().unwrap_or(GeomRole::Floor),
         })
         .collect()
 }
@@ -191,14 +186,17 @@ fn compile(
 ) -> Result<MjModel, MjEditError> {
     engine_log::silence();
     let robot = loaded.robot();
-    let mut spec = MjSpec::from_xml_string(loaded.mjcf())?;
-    *spec.option_mut() = options(regime, scenery.slope());
+    let mut spec = MjSpec::from_xml_string(&loaded.files().mjcf)?;
+    let floor = &scenery.scene.floor;
+    *spec.option_mut() = options(regime, floor.slope);
     let [torsional, rolling] = UNUSED_FRICTION;
     let friction = [regime.friction, torsional, rolling];
     for geom in spec.geom_iter_mut() {
         set_contact(geom, friction);
     }
-    add_floor(&mut spec, friction);
+    add_world_geom(&mut spec, friction)
+        .with_type(MjtGeomBase::mjGEOM_PLANE)
+        .with_size([FLOOR_HALF_LENGTH, FLOOR_HALF_LENGTH, 0.1]);
     scenery.add_to(&mut spec, friction)?;
     for joint in &robot.joints {
         let limit = match regime.effort {
@@ -218,7 +216,7 @@ fn compile(
         );
         model.jnt_range_mut()[joint] = [stop.lower, stop.upper];
     }
-    if let Some(sides) = scenery.friction() {
+    if let Some(sides) = floor.friction {
         let roles = geom_roles(&model, scenery);
         friction::set_by_side(&mut model, &roles, robot, sides);
     }
@@ -251,13 +249,6 @@ fn set_contact(geom: &mut MjsGeom, friction: [f64; 3]) {
         .with_gap(0.0)
         .with_surfacevel([0.0; 6])
         .with_adhesion(0.0);
-}
-
-/// A level plane.
-fn add_floor(spec: &mut MjSpec, friction: [f64; 3]) {
-    add_world_geom(spec, friction)
-        .with_type(MjtGeomBase::mjGEOM_PLANE)
-        .with_size([FLOOR_HALF_LENGTH, FLOOR_HALF_LENGTH, 0.1]);
 }
 
 /// A geom that stands still and that the robot touches. Every property is stated: a new geom

@@ -69,7 +69,7 @@ fn a_model_in_degrees_is_the_same_robot_with_the_same_stops() {
     for regime in [Regime::TORQUE_STUDY, Regime::LOCOMOTION] {
         for loaded in [&radians, &degrees] {
             let world = World::new(loaded, regime).unwrap();
-            let data = Simulation::new(&world, &lying(loaded)).into_engine_data();
+            let data = world.at(&Simulation::new(&world, &lying(loaded)).snapshot());
             // The free joint comes first.
             let compiled = &data.model().jnt_range()[1..];
             assert_eq!(compiled.len(), world.stops().len());
@@ -129,7 +129,7 @@ fn a_new_floor_is_level_wherever_geoms_start() {
     let posed = [geom, "euler=\".3 .2 .1\""].join(" ");
     let loaded = LoadedRobot::load(changed(SAME, (geom, &posed))).unwrap();
     let world = World::new(&loaded, Regime::LOCOMOTION).unwrap();
-    let data = Simulation::new(&world, &lying(&loaded)).into_engine_data();
+    let data = world.at(&Simulation::new(&world, &lying(&loaded)).snapshot());
     let [upright, ..] = data.model().geom_quat()[0];
     assert!((upright - 1.0).abs() < 1e-15, "{upright}");
 }
@@ -152,7 +152,7 @@ fn parts_that_press_on_one_another_are_no_ground_contact() {
     for _ in 0..40 {
         contact = simulation.control_step().unwrap().contact;
     }
-    let data = simulation.into_engine_data();
+    let data = world.at(&simulation.snapshot());
     let pressing = data
         .contact()
         .iter()

@@ -244,14 +244,17 @@ fn body_poses_agree_with_the_engine() {
             posture: posture.clone(),
             pitch: 0.3,
         };
-        let mut simulation = Simulation::new(&world, &placement);
+        let simulation = Simulation::new(&world, &placement);
         let ours = simulation.body_poses();
-        let theirs = simulation.engine_body_poses();
+        let theirs = world.at(&simulation.snapshot());
         for index in 0..loaded.robot().bodies.len() {
-            let id = prone::robot::BodyId(index);
-            let apart = ours.of(id).origin().metres() - theirs.of(id).origin().metres();
+            let ours = ours.of(prone::robot::BodyId(index));
+            // The engine's first body is the world.
+            let position = DVec3::from_array(theirs.xpos()[index + 1]);
+            let [w, x, y, z] = theirs.xquat()[index + 1];
+            let apart = ours.origin().metres() - position;
             assert!(apart.length() < 1e-12, "{index}: {apart}");
-            let dot = ours.of(id).rotation().dot(theirs.of(id).rotation()).abs();
+            let dot = ours.rotation().dot(DQuat::from_xyzw(x, y, z, w)).abs();
             assert_near(dot, 1.0, 1e-12, "rotation");
         }
     }

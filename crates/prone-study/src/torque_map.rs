@@ -5,12 +5,11 @@
 
 pub mod build;
 pub mod compare;
-mod gauge;
+mod entry;
 mod grid;
 mod job;
-mod kept_row;
 pub mod plot;
 
+pub use entry::KeptRow;
 pub use grid::{MOST_ROWS, NodeGrid, NodeGridError};
 pub use job::{Job, JobError};
-pub use kept_row::KeptRow;

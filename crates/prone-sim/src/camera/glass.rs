@@ -2,15 +2,12 @@
 //!
 //! The rest of the picture does not know of it. It throws no shadow, and one layer is drawn.
 
-use glam::DVec3;
-
 use super::light::Openness;
-use super::shade::View;
-use super::trace::{Hit, Tracer};
-use super::{Frame, Lens};
+use super::trace::{GLASS, Hit, Tracer};
+use super::{Frame, Place};
 
-/// Places in a pixel, (0..1, 0..1): a turned square, so that flat edges get all their steps.
-const PLACES: [(f64, f64); 4] = [
+/// A turned square of rays in a pixel, so that flat edges get all their steps.
+const PLACES: [Place; 4] = [
     (0.375, 0.125),
     (0.875, 0.375),
     (0.125, 0.625),
@@ -19,44 +16,38 @@ const PLACES: [(f64, f64); 4] = [
 /// The share of light that an edge of the glass takes away beside its tint.
 const EDGE: f64 = 0.35;
 
-/// Lays glass over a finished picture.
-pub(super) fn draw(frame: &mut Frame, tracer: &mut Tracer<'_>, view: &View<'_>, lens: &Lens) {
-    for row in 0..frame.height {
-        let places = (0..frame.width).flat_map(|column| PLACES.map(|place| (column, place)));
-        let directions: Vec<DVec3> = places
-            .map(|(column, place)| lens.direction(column, row, place))
-            .collect();
-        let hits = tracer.glass_hits(lens.position, &directions);
-        for (column, hits) in hits.chunks(PLACES.len()).enumerate() {
-            let pixel = row * frame.width + column;
-            let behind = frame.hits[pixel].map_or(f64::INFINITY, |hit| hit.distance);
-            let before = |hit: &&Hit| view.looks.is_scenery(hit) && hit.distance < behind;
-            let seen: Vec<&Hit> = hits.iter().flatten().filter(before).collect();
-            let Some(first) = seen.first() else {
-                continue;
-            };
-            let share = seen.len() as f64 / PLACES.len() as f64;
-            let whole = seen.len() == PLACES.len();
-            let even = seen
-                .iter()
-                .all(|hit| hit.geom == first.geom && hit.normal.dot(first.normal) > 0.99);
-            let (tint, alpha) = view.glass(first);
-            let colour = &mut frame.colours[pixel];
-            *colour = colour.lerp(tint, alpha * share);
-            if !(whole && even) {
-                *colour *= 1.0 - EDGE;
+impl Frame {
+    /// Lays glass over a finished picture.
+    pub(super) fn lay_glass(&mut self, tracer: &mut Tracer<'_>) {
+        let view = &self.view;
+        if !view.looks.iter().any(|look| look.is_glass) {
+            return;
+        }
+        let width = view.lens.width;
+        for row in 0..view.lens.height {
+            let rays = view.lens.cast(tracer, GLASS, row, 0..width, &PLACES);
+            for (column, rays) in rays.chunks(PLACES.len()).enumerate() {
+                let pixel = row * width + column;
+                let behind = self.hits[pixel].map_or(f64::INFINITY, |hit| hit.distance);
+                let before = |hit: &&Hit| view.looks[hit.geom].is_glass && hit.distance < behind;
+                let hits = rays.iter().filter_map(|(_, hit)| hit.as_ref());
+                let seen: Vec<&Hit> = hits.filter(before).collect();
+                let Some(first) = seen.first() else {
+                    continue;
+                };
+                let share = seen.len() as f64 / PLACES.len() as f64;
+                let whole = seen.len() == PLACES.len();
+                let even = seen
+                    .iter()
+                    .all(|hit| hit.geom == first.geom && hit.normal.dot(first.normal) > 0.99);
+                let look = &view.looks[first.geom];
+                let tint = look.colour * view.diffuse_light(first.normal, Openness::FULL);
+                let colour = &mut self.colours[pixel];
+                *colour = colour.lerp(tint, look.alpha * share);
+                if !(whole && even) {
+                    *colour *= 1.0 - EDGE;
+                }
             }
         }
-    }
-}
-
-impl View<'_> {
-    /// The colour of a pane and how much it covers.
-    fn glass(&self, hit: &Hit) -> (DVec3, f64) {
-        let (colour, alpha) = self.looks.tint(hit);
-        (
-            colour * self.diffuse_light(hit.normal, Openness::FULL),
-            alpha,
-        )
     }
 }

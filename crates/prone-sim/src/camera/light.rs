@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 
 use super::trace::{Hit, Tracer};
-use super::{Camera, SMOOTH_COSINE};
+use super::{Camera, SMOOTH_COSINE, square};
 
 /// The edge of a tile, pixels; odd, so that a square of this size has a pixel in its middle.
 const TILE: usize = 5;
@@ -87,45 +87,50 @@ impl Studio {
         hits: &[Option<Hit>],
         width: usize,
     ) -> Vec<Openness> {
-        let mut tallies = vec![Tally::default(); hits.len()];
-        for place in 0..PIXELS_PER_TILE {
-            let pixels: Vec<(usize, &Hit)> = hits
-                .iter()
-                .enumerate()
-                .filter(|&(pixel, _)| place_in_tile(pixel, width) == place)
-                .filter_map(|(pixel, hit)| Some((pixel, hit.as_ref()?)))
-                .collect();
-            try_lamp(tracer, self.key[place], &pixels, |pixel, light| {
-                tallies[pixel].key.merge(light);
-            });
-            for &lamp in self
-                .surroundings
-                .iter()
-                .skip(place)
-                .step_by(PIXELS_PER_TILE)
-            {
-                try_lamp(tracer, lamp, &pixels, |pixel, light| {
-                    tallies[pixel].surroundings.merge(light);
-                });
-            }
-        }
-        let tallies = sum_around(hits, &tallies, width, TILE / 2);
-        let tallies = sum_around(hits, &tallies, width, FEATHER);
-        tallies.into_iter().map(Tally::openness).collect()
+        let key = shares(&self.key, tracer, hits, width);
+        let surroundings = shares(&self.surroundings, tracer, hits, width);
+        let both = key.into_iter().zip(surroundings);
+        both.map(|(key, surroundings)| Openness { key, surroundings })
+            .collect()
     }
+}
+
+/// The share of the light of some lamps that reaches what each pixel shows. Every pixel of a tile
+/// tries as many of the lamps, and all tiles try the same.
+fn shares(
+    lamps: &[DVec3],
+    tracer: &mut Tracer<'_>,
+    hits: &[Option<Hit>],
+    width: usize,
+) -> Vec<f64> {
+    let mut lights = vec![Light::default(); hits.len()];
+    for place in 0..PIXELS_PER_TILE {
+        let pixels: Vec<(usize, &Hit)> = hits
+            .iter()
+            .enumerate()
+            .filter(|&(pixel, _)| place_in_tile(pixel, width) == place)
+            .filter_map(|(pixel, hit)| Some((pixel, hit.as_ref()?)))
+            .collect();
+        for &lamp in lamps.iter().skip(place).step_by(PIXELS_PER_TILE) {
+            try_lamp(tracer, lamp, &pixels, &mut lights);
+        }
+    }
+    let lights = sum_around(hits, &lights, width, TILE / 2);
+    let lights = sum_around(hits, &lights, width, FEATHER);
+    lights.into_iter().map(Light::share).collect()
 }
 
 /// Light at a point: the sum, over lamps of strength 1, of the cosine at the surface.
 #[derive(Debug, Clone, Copy, Default)]
-struct Sum {
+struct Light {
     /// What arrived.
     arrived: f64,
     /// What would have arrived without obstacles.
     sent: f64,
 }
 
-impl Sum {
-    fn merge(&mut self, other: Self) {
+impl Light {
+    fn add(&mut self, other: Self) {
         self.arrived += other.arrived;
         self.sent += other.sent;
     }
@@ -139,69 +144,33 @@ impl Sum {
     }
 }
 
-/// What the lamps tried by one pixel gave.
-#[derive(Debug, Clone, Copy, Default)]
-struct Tally {
-    key: Sum,
-    surroundings: Sum,
-}
-
-impl Tally {
-    fn openness(self) -> Openness {
-        Openness {
-            key: self.key.share(),
-            surroundings: self.surroundings.share(),
-        }
-    }
-}
-
 /// Sends a lamp's light to those of the pixels whose surface faces it.
-fn try_lamp(
-    tracer: &mut Tracer<'_>,
-    lamp: DVec3,
-    pixels: &[(usize, &Hit)],
-    mut receive: impl FnMut(usize, Sum),
-) {
-    let facing: Vec<(usize, DVec3, f64)> = pixels
+fn try_lamp(tracer: &mut Tracer<'_>, lamp: DVec3, pixels: &[(usize, &Hit)], lights: &mut [Light]) {
+    let cosine = |hit: &Hit| hit.normal.dot((lamp - hit.point).normalize());
+    let (facing, points): (Vec<(usize, f64)>, Vec<DVec3>) = pixels
         .iter()
-        .map(|&(pixel, hit)| {
-            (
-                pixel,
-                hit.point,
-                hit.normal.dot((lamp - hit.point).normalize()),
-            )
-        })
-        .filter(|&(_, _, cosine)| cosine > 0.0)
-        .collect();
-    let points: Vec<DVec3> = facing.iter().map(|&(_, point, _)| point).collect();
-    for ((pixel, _, cosine), seen) in facing.into_iter().zip(tracer.in_sight(lamp, &points)) {
-        receive(
-            pixel,
-            Sum {
-                arrived: if seen { cosine } else { 0.0 },
-                sent: cosine,
-            },
-        );
+        .map(|&(pixel, hit)| ((pixel, cosine(hit)), hit.point))
+        .filter(|&((_, cosine), _)| cosine > 0.0)
+        .unzip();
+    for ((pixel, cosine), seen) in facing.into_iter().zip(tracer.in_sight(lamp, &points)) {
+        lights[pixel].add(Light {
+            arrived: if seen { cosine } else { 0.0 },
+            sent: cosine,
+        });
     }
 }
 
 /// Adds up the square around each pixel, as far as it shows the same surface; the square reaches
 /// over `reach` pixels to each side.
-fn sum_around(hits: &[Option<Hit>], tallies: &[Tally], width: usize, reach: usize) -> Vec<Tally> {
-    let height = hits.len() / width.max(1);
-    let span =
-        |middle: usize, end: usize| middle.saturating_sub(reach)..(middle + reach + 1).min(end);
+fn sum_around(hits: &[Option<Hit>], lights: &[Light], width: usize, reach: usize) -> Vec<Light> {
     let sum = |(pixel, hit): (usize, &Option<Hit>)| {
+        let mut sum = Light::default();
         let Some(hit) = hit else {
-            return Tally::default();
+            return sum;
         };
-        let mut sum = Tally::default();
-        for row in span(pixel / width, height) {
-            for other in span(pixel % width, width).map(|column| row * width + column) {
-                if hits[other].is_some_and(|other| same_surface(hit, &other)) {
-                    sum.key.merge(tallies[other].key);
-                    sum.surroundings.merge(tallies[other].surroundings);
-                }
+        for other in square(pixel, reach, width, hits.len()) {
+            if hits[other].is_some_and(|other| same_surface(hit, &other)) {
+                sum.add(lights[other]);
             }
         }
         sum

@@ -3,10 +3,11 @@
 use glam::DVec3;
 use mujoco_rs::prelude::{MjModel, MjtGeomBase};
 
-use super::Camera;
+use super::Lens;
 use super::light::{Openness, Studio};
 use super::picture::linear_from_srgb;
 use super::trace::{GLASS_GROUP, Hit};
+use crate::engine_numbers::WORLD_BODY;
 
 /// Light of the key lamp on a surface that faces it: slightly warm.
 const KEY: DVec3 = DVec3::new(0.80, 0.77, 0.72);
@@ -52,14 +53,13 @@ struct Grid {
 }
 
 /// How one geom looks.
-#[derive(Debug, Clone, Copy)]
-struct Look {
+pub(super) struct Look {
     is_floor: bool,
-    /// Stands still: no part of the robot.
-    is_scenery: bool,
-    colour: DVec3,
+    /// Whether it is a plate or a panel of a scene.
+    pub is_glass: bool,
+    pub colour: DVec3,
     /// How much it covers where it is glass, 0..=1.
-    alpha: f64,
+    pub alpha: f64,
     /// Strength of highlights, 0..=1, and how narrow they are, 0..=1: the engine's scales.
     specular: f64,
     shininess: f64,
@@ -67,86 +67,66 @@ struct Look {
     emission: f64,
 }
 
-/// How every geom of a model looks.
-pub(super) struct Looks(Vec<Look>);
-
-impl Looks {
-    pub(super) fn of(model: &MjModel) -> Self {
-        Self(
-            (0..model.geom_type().len())
-                .map(|geom| look_of(model, geom))
-                .collect(),
-        )
-    }
-
-    /// Whether a ray found anything but a floor.
-    pub(super) fn is_subject(&self, hit: Option<&Hit>) -> bool {
-        hit.is_some_and(|hit| !self.0[hit.geom].is_floor)
-    }
-
-    pub(super) fn is_scenery(&self, hit: &Hit) -> bool {
-        self.0[hit.geom].is_scenery
-    }
-
-    /// Colour and cover of what a ray found, as glass.
-    pub(super) fn tint(&self, hit: &Hit) -> (DVec3, f64) {
-        let look = &self.0[hit.geom];
-        (look.colour, look.alpha)
-    }
-
-    /// Whether anything is glass.
-    pub(super) fn has_glass(model: &MjModel) -> bool {
-        let mut geoms = model.geom_group().iter().zip(model.geom_bodyid());
-        geoms.any(|(&group, &body)| group == GLASS_GROUP && body == 0)
-    }
-}
-
-fn look_of(model: &MjModel, geom: usize) -> Look {
-    let is_floor = model.geom_type()[geom] == MjtGeomBase::mjGEOM_PLANE;
-    let is_scenery = model.geom_bodyid()[geom] == 0;
-    let alpha = model.geom_rgba()[geom][3].into();
-    let linear = |[red, green, blue, _]: [f32; 4]| {
-        DVec3::new(red.into(), green.into(), blue.into()).map(linear_from_srgb)
-    };
-    match usize::try_from(model.geom_matid()[geom]) {
-        Ok(material) => Look {
-            is_floor,
-            is_scenery,
-            alpha,
-            colour: linear(model.mat_rgba()[material]),
-            specular: model.mat_specular()[material].into(),
-            shininess: model.mat_shininess()[material].into(),
-            emission: model.mat_emission()[material].into(),
-        },
-        // The engine's defaults for a geom without a material.
-        Err(_) => Look {
-            is_floor,
-            is_scenery,
-            alpha,
-            colour: linear(model.geom_rgba()[geom]),
-            specular: 0.5,
-            shininess: 0.5,
-            emission: 0.0,
-        },
+impl Look {
+    fn new(model: &MjModel, geom: usize) -> Self {
+        let own = model.geom_rgba()[geom];
+        let (rgba, [specular, shininess, emission]) =
+            match usize::try_from(model.geom_matid()[geom]) {
+                Ok(material) => {
+                    let scales = [
+                        model.mat_specular()[material],
+                        model.mat_shininess()[material],
+                        model.mat_emission()[material],
+                    ];
+                    (model.mat_rgba()[material], scales.map(f64::from))
+                }
+                // The engine's defaults for a geom without a material.
+                Err(_) => (own, [0.5, 0.5, 0.0]),
+            };
+        let [red, green, blue, _] = rgba.map(f64::from);
+        Self {
+            is_floor: model.geom_type()[geom] == MjtGeomBase::mjGEOM_PLANE,
+            is_glass: model.geom_group()[geom] == GLASS_GROUP
+                && model.geom_bodyid()[geom] == WORLD_BODY,
+            colour: DVec3::new(red, green, blue).map(linear_from_srgb),
+            alpha: own[3].into(),
+            specular,
+            shininess,
+            emission,
+        }
     }
 }
 
 /// What colouring a ray needs to know beside the ray.
-pub(super) struct View<'a> {
-    pub looks: &'a Looks,
-    pub studio: &'a Studio,
-    pub camera: &'a Camera,
-    /// The angle that one pixel covers, rad.
-    pub pixel_angle: f64,
+pub(super) struct View {
+    /// By the engine's number of the geom.
+    pub looks: Vec<Look>,
+    pub studio: Studio,
+    pub lens: Lens,
 }
 
-impl View<'_> {
+impl View {
+    pub(super) fn new(model: &MjModel, studio: Studio, lens: Lens) -> Self {
+        let geoms = 0..model.geom_type().len();
+        Self {
+            looks: geoms.map(|geom| Look::new(model, geom)).collect(),
+            studio,
+            lens,
+        }
+    }
+
+    /// 1 where a ray found anything but a floor, else 0.
+    pub(super) fn cover(&self, hit: Option<&Hit>) -> f64 {
+        let is_subject = hit.is_some_and(|hit| !self.looks[hit.geom].is_floor);
+        f64::from(u8::from(is_subject))
+    }
+
     /// The colour that a ray of unit direction `direction` brings back.
     pub(super) fn colour(&self, direction: DVec3, hit: Option<&Hit>, open: Openness) -> DVec3 {
         let Some(hit) = hit else {
             return backdrop(direction);
         };
-        let look = &self.looks.0[hit.geom];
+        let look = &self.looks[hit.geom];
         if look.is_floor {
             self.floor(direction, hit, open)
         } else {
@@ -174,7 +154,7 @@ impl View<'_> {
 
     fn floor(&self, direction: DVec3, hit: &Hit, open: Openness) -> DVec3 {
         let lit = FLOOR * (1.0 - self.lines(direction, hit)) * self.diffuse_light(hit.normal, open);
-        let distance = hit.distance / self.camera.position.distance(self.camera.target);
+        let distance = hit.distance / self.lens.distance;
         lit.lerp(backdrop(direction), smooth_step(FADE, distance))
     }
 
@@ -187,7 +167,7 @@ impl View<'_> {
 
     /// How much the floor's lines darken what a pixel shows of the floor, 0..=1.
     fn lines(&self, direction: DVec3, hit: &Hit) -> f64 {
-        let across = hit.distance * self.pixel_angle;
+        let across = hit.distance * self.lens.pixel_angle();
         let along = across / direction.dot(hit.normal).abs().max(1e-3);
         let heading = direction.reject_from(hit.normal).normalize_or(DVec3::X);
         let extent = |cosine: f64, sine: f64| (along * cosine).hypot(across * sine);

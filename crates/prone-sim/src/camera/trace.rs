@@ -7,12 +7,13 @@ use mujoco_rs::prelude::{MjData, MjModel};
 
 use prone::robot::BodyId;
 
-/// The visible geom groups, 0 to 2: those that the engine's viewer shows from the start.
-const VISIBLE_GROUPS: [u8; 6] = [1, 1, 1, 0, 0, 0];
+/// The groups of geoms that are seen as solid, 0 to 2: those that the engine's viewer shows from the
+/// start.
+pub(super) const SOLID: [u8; 6] = [1, 1, 1, 0, 0, 0];
 /// The group of geoms that are glass. The engine's viewer hides it, and so do robots' models.
 pub(crate) const GLASS_GROUP: i32 = 5;
 /// The same for the engine's rays.
-const GLASS_GROUPS: [u8; 6] = [0, 0, 0, 0, 0, 1];
+pub(super) const GLASS: [u8; 6] = [0, 0, 0, 0, 0, 1];
 /// Farther than this nothing is seen, m.
 const HORIZON: f64 = 100.0;
 /// A surface this close to the end of a ray is the end of the ray, m.
@@ -47,17 +48,8 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// Follows unit directions from one origin to what is solid.
-    pub(super) fn hits(&mut self, origin: DVec3, directions: &[DVec3]) -> Vec<Option<Hit>> {
-        self.hits_in(VISIBLE_GROUPS, origin, directions)
-    }
-
-    /// Follows unit directions from one origin to glass.
-    pub(super) fn glass_hits(&mut self, origin: DVec3, directions: &[DVec3]) -> Vec<Option<Hit>> {
-        self.hits_in(GLASS_GROUPS, origin, directions)
-    }
-
-    fn hits_in(
+    /// Follows unit directions from one origin to the first geom of some groups.
+    pub(super) fn hits(
         &mut self,
         groups: [u8; 6],
         origin: DVec3,
@@ -98,7 +90,7 @@ impl<'a> Tracer<'a> {
         let (geoms, distances) = self.data.multi_ray(
             &origin.to_array(),
             &arrays,
-            Some(&VISIBLE_GROUPS),
+            Some(&SOLID),
             true,
             None,
             HORIZON,

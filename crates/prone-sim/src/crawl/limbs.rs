@@ -57,18 +57,18 @@ pub fn check_limbs(world: &World, checked: &CheckedCycle) -> Result<(), LimbsErr
     let pulled = forth.iter().map(|&time| checked.pull_at(time));
     let recovered = back.iter().map(|&time| path.at(time));
     let postures: Vec<JointAngles> = pulled.chain(recovered).collect();
-    let near = SelfCollision::new(world)?.scan(&postures, 0.0)?.closest;
-    if near.closest.distance_m >= -DEEP {
+    let nearest = SelfCollision::new(world)?.scan(&postures)?;
+    if nearest.distance_m >= -DEEP {
         return Ok(());
     }
-    let place = match near.index.checked_sub(forth.len()) {
-        None => format!("{:.2} s into the pull", forth[near.index]),
+    let place = match nearest.index.checked_sub(forth.len()) {
+        None => format!("{:.2} s into the pull", forth[nearest.index]),
         Some(index) => format!("{:.2} s into the recovery", back[index]),
     };
     Err(LimbsError::Through {
         cycle: checked.name().to_owned(),
-        shapes: near.closest.shapes,
-        depth_mm: -near.closest.distance_m * 1e3,
+        shapes: nearest.shapes,
+        depth_mm: -nearest.distance_m * 1e3,
         place,
     })
 }

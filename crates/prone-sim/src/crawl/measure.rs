@@ -7,10 +7,10 @@ use prone::robot::{BodyPart, JointAngles, Tops};
 use prone::steering::Bearing;
 
 use super::effort::{Effort, MotorStep};
-use super::touch::{Touch, Touches};
-use super::{Detail, ROW_STEP};
-use crate::simulation::{Simulation, Snapshot};
-use crate::world::World;
+use super::touch::Touches;
+use super::{Crawl, Detail, ROW_STEP};
+use crate::driven::SimulatedRobot;
+use crate::simulation::Simulation;
 use prone::scene::ContactForce;
 
 /// One instant of a crawl.
@@ -106,8 +106,8 @@ fn wrapped(angle: f64) -> f64 {
 
 /// Measures while a crawl goes on.
 pub(super) struct Meter {
-    record: Record,
-    snapshots: Vec<Snapshot>,
+    /// What is known of the crawl so far.
+    crawl: Crawl,
     detail: Detail,
     parts: Vec<BodyPart>,
     begin: Option<f64>,
@@ -115,15 +115,6 @@ pub(super) struct Meter {
     loads: [BodyLoad; 2],
     means: Means,
     touches: Touches,
-}
-
-/// What a finished meter has.
-pub(super) struct Record {
-    pub(super) cycles: Vec<CycleRow>,
-    pub(super) effort: Effort,
-    pub(super) tops: Tops,
-    pub(super) rows: Vec<Row>,
-    pub(super) touches: Vec<Touch>,
 }
 
 /// Sums over a stage of what the ground carries.
@@ -167,18 +158,22 @@ impl Means {
 }
 
 impl Meter {
-    pub(super) fn new(world: &World, detail: Detail) -> Self {
-        let robot = world.robot();
+    pub(super) fn new(simulation: &Simulation, detail: Detail) -> Self {
+        let robot = simulation.robot();
         Self {
-            record: Record {
+            crawl: Crawl {
+                start: simulation.snapshot(),
                 cycles: Vec::new(),
                 effort: Effort::none(robot),
                 tops: Tops::NONE,
-                rows: Vec::new(),
                 touches: Vec::new(),
+                stopped: Vec::new(),
+                rows: Vec::new(),
+                snapshots: Vec::new(),
+                arrived: false,
+                engine_steps: 0,
             },
-            touches: Touches::new(world),
-            snapshots: Vec::new(),
+            touches: Touches::new(simulation.world()),
             detail,
             parts: BodyPart::of_shapes(robot),
             begin: None,
@@ -189,6 +184,9 @@ impl Meter {
     }
 
     pub(super) fn begin_cycle(&mut self, simulation: &Simulation, checked: &CheckedCycle) {
+        if self.crawl.cycles.is_empty() {
+            self.crawl.start = simulation.snapshot();
+        }
         let zero = *self.begin.get_or_insert(simulation.time());
         let from = Bearing::of_prone(&simulation.ground_from_root());
         self.loads = [BodyLoad::default(); 2];
@@ -220,9 +218,9 @@ impl Meter {
         [cycle.body_share, cycle.recovery_body_share] = self.loads.map(BodyLoad::share);
         cycle.to = Bearing::of_prone(&simulation.ground_from_root());
         cycle.seconds = cycle.effort.seconds;
-        self.record.effort.add(&cycle.effort);
-        self.record.tops.raise(&cycle.tops);
-        self.record.cycles.push(cycle);
+        self.crawl.effort.add(&cycle.effort);
+        self.crawl.tops.raise(&cycle.tops);
+        self.crawl.cycles.push(cycle);
     }
 
     /// After each engine step, with what was commanded for it and what that is for.
@@ -258,7 +256,8 @@ impl Meter {
         for (sum, force) in self.means.contact.iter_mut().zip(contact) {
             *sum += force;
         }
-        if simulation.steps_are_due(ROW_STEP) {
+        let steps_per_row = simulation.world().regime().steps_in(ROW_STEP);
+        if simulation.steps().is_multiple_of(steps_per_row) {
             self.row(simulation, command);
         }
     }
@@ -276,10 +275,10 @@ impl Meter {
             return;
         }
         let mean = |sum: f64| sum / means.steps as f64;
-        self.snapshots.push(simulation.snapshot());
-        self.record.rows.push(Row {
+        self.crawl.snapshots.push(simulation.snapshot());
+        self.crawl.rows.push(Row {
             time: simulation.time() - begin,
-            cycle: self.record.cycles.len(),
+            cycle: self.crawl.cycles.len(),
             stage,
             command: command.clone(),
             angles: simulation.joint_angles(),
@@ -291,11 +290,14 @@ impl Meter {
         });
     }
 
-    pub(super) fn finish(self) -> (Record, Vec<Snapshot>) {
-        let record = Record {
+    /// The record of what `robot` has done, and whether it has `arrived`.
+    pub(super) fn finish(self, robot: &SimulatedRobot, arrived: bool) -> Crawl {
+        Crawl {
             touches: self.touches.finish(),
-            ..self.record
-        };
-        (record, self.snapshots)
+            stopped: robot.stopped(),
+            arrived,
+            engine_steps: robot.simulation().steps(),
+            ..self.crawl
+        }
     }
 }

@@ -1,9 +1,11 @@
 //! What the robot bumped into.
 
+use std::collections::BTreeMap;
+
 use prone::robot::BodyId;
 
 use crate::simulation::Simulation;
-use crate::world::World;
+use crate::world::{GeomRole, World};
 
 /// A part of the robot and an obstacle that met. Ramps are ground and do not count.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,10 +27,8 @@ pub struct Touch {
 /// Touches while a crawl goes on.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Touches {
-    /// By body, then by obstacle.
-    met: Vec<Touch>,
-    /// When each touch was last seen.
-    seen: Vec<Option<Seen>>,
+    /// By body, then by obstacle: the touch so far, and when it was last seen.
+    met: BTreeMap<(BodyId, usize), (Touch, Option<Seen>)>,
     /// Which obstacles count.
     walls: Vec<bool>,
 }
@@ -67,14 +67,16 @@ impl Touches {
         if !self.walls.contains(&true) {
             return;
         }
-        for contact in simulation.obstacle_contacts() {
-            if self.walls[contact.obstacle] {
-                let now = Instant {
-                    step: simulation.steps(),
-                    time,
-                    seconds: simulation.time_step(),
-                };
-                self.meet(contact.body, contact.obstacle, contact.normal, now);
+        let now = Instant {
+            step: simulation.steps(),
+            time,
+            seconds: simulation.time_step(),
+        };
+        for contact in simulation.contacts() {
+            if let GeomRole::Obstacle(obstacle) = contact.with
+                && self.walls[obstacle]
+            {
+                self.meet(contact.body, obstacle, contact.normal(), now);
             }
         }
     }
@@ -82,23 +84,15 @@ impl Touches {
     /// A contact with a normal force, N; one of several, where a part meets an obstacle in several
     /// places in the same step.
     fn meet(&mut self, body: BodyId, obstacle: usize, normal: f64, now: Instant) {
-        let place = self
-            .met
-            .binary_search_by_key(&(body, obstacle), |touch| (touch.body, touch.obstacle));
-        let index = place.unwrap_or_else(|index| {
-            let touch = Touch {
-                body,
-                obstacle,
-                count: 0,
-                first: now.time,
-                seconds: 0.0,
-                peak: 0.0,
-            };
-            self.met.insert(index, touch);
-            self.seen.insert(index, None);
-            index
-        });
-        let (touch, seen) = (&mut self.met[index], &mut self.seen[index]);
+        let new = Touch {
+            body,
+            obstacle,
+            count: 0,
+            first: now.time,
+            seconds: 0.0,
+            peak: 0.0,
+        };
+        let (touch, seen) = self.met.entry((body, obstacle)).or_insert((new, None));
         let already = seen.filter(|seen| seen.step == now.step);
         if already.is_none() {
             touch.seconds += now.seconds;
@@ -115,7 +109,7 @@ impl Touches {
     }
 
     pub(super) fn finish(self) -> Vec<Touch> {
-        self.met
+        self.met.into_values().map(|(touch, _)| touch).collect()
     }
 }
 

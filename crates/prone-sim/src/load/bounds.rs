@@ -4,86 +4,38 @@ use mujoco_rs::prelude::*;
 
 use prone::robot::bounds::{INERTIA, LENGTH, MASS};
 
-use super::problem::{ModelProblem, label};
+use super::model::label;
 
-/// Checks lengths, masses and inertias of a compiled model.
-pub(super) fn check(model: &MjModel) -> Result<(), ModelProblem> {
-    let bodies = Items {
-        model,
-        kind: MjtObjBase::mjOBJ_BODY,
-        word: "body",
-    };
-    // The world is body 0, and where the root is in it does not matter.
-    bodies.within(
-        "pos",
-        model.body_pos().iter().enumerate().skip(2),
-        LENGTH,
-        "m",
-    )?;
-    bodies.within(
-        "centre of mass",
-        model.body_ipos().iter().enumerate(),
-        LENGTH,
-        "m",
-    )?;
-    bodies.within(
-        "inertia",
-        model.body_inertia().iter().enumerate(),
-        INERTIA,
-        "kg·m²",
-    )?;
-    let masses: Vec<[f64; 1]> = model.body_mass().iter().map(|&mass| [mass]).collect();
-    bodies.within("mass", masses.iter().enumerate(), MASS, "kg")?;
-    let joints = Items {
-        model,
-        kind: MjtObjBase::mjOBJ_JOINT,
-        word: "joint",
-    };
-    joints.within("pos", model.jnt_pos().iter().enumerate(), LENGTH, "m")?;
-    let geoms = Items {
-        model,
-        kind: MjtObjBase::mjOBJ_GEOM,
-        word: "geom",
-    };
-    geoms.within("pos", model.geom_pos().iter().enumerate(), LENGTH, "m")?;
-    geoms.within("size", model.geom_size().iter().enumerate(), LENGTH, "m")?;
-    let sites = Items {
-        model,
-        kind: MjtObjBase::mjOBJ_SITE,
-        word: "site",
-    };
-    sites.within("pos", model.site_pos().iter().enumerate(), LENGTH, "m")
-}
-
-/// Things of one kind, by index.
-struct Items<'a> {
-    model: &'a MjModel,
-    kind: MjtObjBase,
-    word: &'static str,
-}
-
-impl Items<'_> {
-    fn within<'v, const N: usize>(
-        &self,
-        what: &'static str,
-        values: impl Iterator<Item = (usize, &'v [f64; N])>,
-        largest: f64,
-        unit: &'static str,
-    ) -> Result<(), ModelProblem> {
-        for (index, vector) in values {
+/// Checks lengths, masses and inertias of a compiled model; a refusal is a message.
+pub(super) fn check(model: &MjModel) -> Result<(), String> {
+    let within =
+        |(kind, word), what, values: &[f64], width: usize, (largest, unit): (f64, &str)| {
             // A NaN is in no range.
             let bound = -largest..=largest;
-            if let Some(&value) = vector.iter().find(|value| !bound.contains(value)) {
-                return Err(ModelProblem::OutOfBounds {
-                    kind: self.word,
-                    name: label(self.model, self.kind, index),
-                    what,
-                    value,
-                    largest,
-                    unit,
-                });
-            }
-        }
-        Ok(())
-    }
+            let Some(place) = values.iter().position(|value| !bound.contains(value)) else {
+                return Ok(());
+            };
+            let (name, value) = (label(model, kind, place / width), values[place]);
+            Err(format!(
+                "{word} {name}: {what} {value} {unit} is outside -{largest}..{largest} {unit}"
+            ))
+        };
+    let body = (MjtObjBase::mjOBJ_BODY, "body");
+    let joint = (MjtObjBase::mjOBJ_JOINT, "joint");
+    let geom = (MjtObjBase::mjOBJ_GEOM, "geom");
+    let site = (MjtObjBase::mjOBJ_SITE, "site");
+    let (length, mass, inertia) = ((LENGTH, "m"), (MASS, "kg"), (INERTIA, "kg·m²"));
+    // The world is body 0, and where the root is in it does not matter.
+    let mut positions = model.body_pos().to_vec();
+    positions[..2].fill([0.0; 3]);
+    within(body, "pos", positions.as_flattened(), 3, length)?;
+    let centres = model.body_ipos().as_flattened();
+    within(body, "centre of mass", centres, 3, length)?;
+    let inertias = model.body_inertia().as_flattened();
+    within(body, "inertia", inertias, 3, inertia)?;
+    within(body, "mass", model.body_mass(), 1, mass)?;
+    within(joint, "pos", model.jnt_pos().as_flattened(), 3, length)?;
+    within(geom, "pos", model.geom_pos().as_flattened(), 3, length)?;
+    within(geom, "size", model.geom_size().as_flattened(), 3, length)?;
+    within(site, "pos", model.site_pos().as_flattened(), 3, length)
 }

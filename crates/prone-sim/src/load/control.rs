@@ -1,72 +1,53 @@
-//! `[control]`, `[search]` and `[pictures]` of `robot.toml`: bounds and units.
+//! `[control]` and `[search]` of `robot.toml`: bounds and units.
 
 use prone::robot::bounds;
 use prone::robot::{Control, Range, SearchSetup, ServoLaw, SteeringGains};
 use prone_files::FileError;
-use prone_files::robot_file::{ControlTable, PicturesTable, SearchTable, SteeringTable};
+use prone_files::robot_file::{ControlTable, Number, SearchTable};
 
 use super::lookup::Lookup;
 
 pub(super) fn read(lookup: &Lookup<'_>, table: &ControlTable) -> Result<Control, FileError> {
-    let step = &table.command_step_ms;
-    let longest = bounds::COMMAND_STEP * 1e3;
-    let step_ms = lookup.positive(step, "command_step_ms", *step.get_ref(), longest)?;
-    let (rate, speed) = (&table.servo_rate_per_s, &table.servo_speed_rad_s);
-    let gain = &table.stiff_servo_gain_nms;
-    let uphill = &table.uphill_deg;
-    let steepest = bounds::SLOPE.to_degrees();
+    let number =
+        |place: &Number, what, largest| lookup.positive(place, what, *place.get_ref(), largest);
+    let gain =
+        |place: &Number, what| lookup.within(place, what, *place.get_ref(), bounds::STEERING);
+    let longest_ms = bounds::COMMAND_STEP * 1e3;
+    let steepest_deg = bounds::SLOPE.to_degrees();
+    let rate = &table.servo_rate_per_s;
+    let speed = &table.servo_speed_rad_s;
+    let steering = &table.steering;
     Ok(Control {
-        command_step: step_ms * 1e-3,
+        command_step: number(&table.command_step_ms, "command_step_ms", longest_ms)? * 1e-3,
         servo: ServoLaw {
-            rate: lookup.positive(
-                rate,
-                "servo_rate_per_s",
-                *rate.get_ref(),
-                bounds::SERVO_RATE,
-            )?,
-            speed: lookup.positive(speed, "servo_speed_rad_s", *speed.get_ref(), bounds::SPEED)?,
+            rate: number(rate, "servo_rate_per_s", bounds::SERVO_RATE)?,
+            speed: number(speed, "servo_speed_rad_s", bounds::SPEED)?,
         },
-        stiff_servo_gain: lookup.positive(
-            gain,
+        stiff_servo_gain: number(
+            &table.stiff_servo_gain_nms,
             "stiff_servo_gain_nms",
-            *gain.get_ref(),
             bounds::GAIN,
         )?,
-        steering: steering(lookup, &table.steering)?,
-        uphill: lookup
-            .positive(uphill, "uphill_deg", *uphill.get_ref(), steepest)?
-            .to_radians(),
-    })
-}
-
-fn steering(lookup: &Lookup<'_>, table: &SteeringTable) -> Result<SteeringGains, FileError> {
-    let gain = |what, place| lookup.within(place, what, *place.get_ref(), bounds::STEERING);
-    Ok(SteeringGains {
-        yaw: gain("yaw", &table.yaw)?,
-        lateral: gain("lateral_rad_m", &table.lateral_rad_m)?,
-        lateral_sum: gain("lateral_sum_rad_m", &table.lateral_sum_rad_m)?,
+        steering: SteeringGains {
+            yaw: gain(&steering.yaw, "yaw")?,
+            lateral: gain(&steering.lateral_rad_m, "lateral_rad_m")?,
+            lateral_sum: gain(&steering.lateral_sum_rad_m, "lateral_sum_rad_m")?,
+        },
+        uphill: number(&table.uphill_deg, "uphill_deg", steepest_deg)?.to_radians(),
     })
 }
 
 pub(super) fn search(lookup: &Lookup<'_>, table: &SearchTable) -> Result<SearchSetup, FileError> {
     let advance = &table.least_advance_mm;
     let [lower, upper] = &table.upper_arm_rad;
+    let range = Range {
+        lower: *lower.get_ref(),
+        upper: *upper.get_ref(),
+    };
     Ok(SearchSetup {
         least_advance: lookup.length(advance, "least_advance_mm", *advance.get_ref())?,
-        upper_arm: lookup.range(
-            lower,
-            Range {
-                lower: *lower.get_ref(),
-                upper: *upper.get_ref(),
-            },
-        )?,
+        upper_arm: lookup.range(lower, range)?,
     })
-}
-
-/// How long the robot lies, m.
-pub(super) fn lying_length(lookup: &Lookup<'_>, table: &PicturesTable) -> Result<f64, FileError> {
-    let length = &table.lying_length_mm;
-    lookup.length(length, "lying_length_mm", *length.get_ref())
 }
 
 #[cfg(test)]

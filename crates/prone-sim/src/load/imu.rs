@@ -13,7 +13,8 @@ const ROOT: BodyId = BodyId(0);
 
 pub(super) fn read(lookup: &Lookup<'_>, table: &ImuTable, parts: &Parts) -> Result<Imu, FileError> {
     let name = &table.site;
-    let (body, position) = lookup.site(name, parts)?;
+    let site = lookup.site(name, parts)?;
+    let (body, position) = site.at;
     if body != ROOT {
         let message = format!(
             "site {} is on {}; the inertial unit must be on the root {}",
@@ -23,50 +24,34 @@ pub(super) fn read(lookup: &Lookup<'_>, table: &ImuTable, parts: &Parts) -> Resu
         );
         return Err(lookup.error(name, message));
     }
-    let sensors = parts.sensors.get(name.get_ref());
-    let complete = sensors.filter(|sensors| sensors.accelerometer && sensors.gyroscope);
-    let Some(sensors) = complete else {
-        let accelerometer = sensors.is_some_and(|sensors| sensors.accelerometer);
-        let missing = if accelerometer {
-            "gyro"
-        } else {
-            "accelerometer"
-        };
+    let sensors = [
+        (site.accelerometer, "accelerometer"),
+        (site.gyroscope, "gyro"),
+    ];
+    if let Some((_, missing)) = sensors.into_iter().find(|(is_there, _)| !is_there) {
         let message = format!(
             "{} has no {missing} at site {}",
             lookup.mjcf,
             name.get_ref()
         );
         return Err(lookup.error(name, message));
-    };
-    let bounded = |what, value, largest| lookup.within(name, what, value, largest);
+    }
+    let acceleration = |what, value| lookup.within(name, what, value, bounds::ACCELERATION);
+    let turn_rate = |what, value| lookup.within(name, what, value, bounds::TURN_RATE);
     Ok(Imu {
         site: name.get_ref().clone(),
         // The root body's own frame is the root frame.
-        root_from_sensor: Transform::new(sensors.link_from_sensor, position.metres()),
+        root_from_sensor: Transform::new(site.link_from_axes, position.metres()),
         accelerometer: SensorNoise {
-            standard_deviation: bounded(
+            standard_deviation: acceleration(
                 "accelerometer_noise_m_s2",
                 table.accelerometer_noise_m_s2,
-                bounds::ACCELERATION,
             )?,
-            bias_bound: bounded(
-                "accelerometer_bias_m_s2",
-                table.accelerometer_bias_m_s2,
-                bounds::ACCELERATION,
-            )?,
+            bias_bound: acceleration("accelerometer_bias_m_s2", table.accelerometer_bias_m_s2)?,
         },
         gyroscope: SensorNoise {
-            standard_deviation: bounded(
-                "gyroscope_noise_rad_s",
-                table.gyroscope_noise_rad_s,
-                bounds::TURN_RATE,
-            )?,
-            bias_bound: bounded(
-                "gyroscope_bias_rad_s",
-                table.gyroscope_bias_rad_s,
-                bounds::TURN_RATE,
-            )?,
+            standard_deviation: turn_rate("gyroscope_noise_rad_s", table.gyroscope_noise_rad_s)?,
+            bias_bound: turn_rate("gyroscope_bias_rad_s", table.gyroscope_bias_rad_s)?,
         },
     })
 }

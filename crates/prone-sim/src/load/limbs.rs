@@ -1,16 +1,10 @@
 //! The limbs of the chain, refused at the name in `robot.toml` that is in the wrong place.
 
-use prone::robot::{ChainPart, ChainSide, LimbError, Robot, check_limbs};
+use prone::robot::{ChainPart, ChainSide, LimbError};
 use prone_files::robot_file::{ChainTable, Name, SideTable};
 
-/// A name in the wrong place, and why.
-pub(super) type Misplaced<'a> = (&'a Name, String);
-
-pub(super) fn check<'a>(robot: &Robot, table: &'a ChainTable) -> Result<(), Misplaced<'a>> {
-    check_limbs(robot).map_err(|error| misplaced(&error, table))
-}
-
-fn misplaced<'a>(error: &LimbError, table: &'a ChainTable) -> Misplaced<'a> {
+/// The name in the file that a refusal is about, and the refusal in the file's words.
+pub(super) fn misplaced<'a>(error: &LimbError, table: &'a ChainTable) -> (&'a Name, String) {
     match *error {
         LimbError::Twice {
             side,

@@ -5,12 +5,11 @@ use std::fmt::Display;
 
 use strsim::levenshtein;
 
-use prone::frames::{Link, Point};
-use prone::robot::{BodyId, JointId, Range, bounds};
+use prone::robot::{Body, BodyId, Joint, JointId, Range, bounds};
 use prone_files::FileError;
 use prone_files::robot_file::{Name, Placed, RobotFile};
 
-use super::model::Parts;
+use super::model::{Parts, Site};
 
 /// The TOML file that errors point into, and the model's name for their text.
 pub(super) struct Lookup<'a> {
@@ -24,55 +23,44 @@ impl Lookup<'_> {
         RobotFile::error_at(self.file, self.text, place, &message.to_string())
     }
 
-    /// An error for a name that the model lacks, with the nearest one that it has.
-    pub(super) fn unknown<'n>(
+    /// The place of a name among those that the model has; where it is none of them, the error says
+    /// the nearest one.
+    fn find<'n>(
         &self,
         place: &Name,
         kind: &str,
-        known: impl Iterator<Item = &'n str>,
-    ) -> FileError {
+        mut known: impl Iterator<Item = &'n str> + Clone,
+    ) -> Result<usize, FileError> {
         let name = place.get_ref();
-        let nearest = known.min_by_key(|candidate| levenshtein(candidate, name));
+        let all = known.clone();
+        if let Some(index) = known.position(|known| known == name) {
+            return Ok(index);
+        }
+        let nearest = all.min_by_key(|candidate| levenshtein(candidate, name));
         let hint = match nearest {
             Some(nearest) if levenshtein(nearest, name) <= 3 => {
                 format!("; did you mean {nearest}?")
             }
             _ => String::new(),
         };
-        self.error(
-            place,
-            format!("{kind} {name} is not in {}{hint}", self.mjcf),
-        )
+        let message = format!("{kind} {name} is not in {}{hint}", self.mjcf);
+        Err(self.error(place, message))
     }
 
-    pub(super) fn joint(&self, name: &Name, parts: &Parts) -> Result<JointId, FileError> {
-        let mut joints = parts.joints.iter();
-        joints
-            .position(|joint| joint.name == *name.get_ref())
-            .map(JointId)
-            .ok_or_else(|| {
-                self.unknown(name, "joint", parts.joints.iter().map(|j| j.name.as_str()))
-            })
+    pub(super) fn joint(&self, name: &Name, joints: &[Joint]) -> Result<JointId, FileError> {
+        let known = joints.iter().map(|joint| joint.name.as_str());
+        self.find(name, "joint", known).map(JointId)
     }
 
-    pub(super) fn body(&self, name: &Name, parts: &Parts) -> Result<BodyId, FileError> {
-        let mut bodies = parts.bodies.iter();
-        bodies
-            .position(|body| body.name == *name.get_ref())
-            .map(BodyId)
-            .ok_or_else(|| self.unknown(name, "body", parts.bodies.iter().map(|b| b.name.as_str())))
+    pub(super) fn body(&self, name: &Name, bodies: &[Body]) -> Result<BodyId, FileError> {
+        let known = bodies.iter().map(|body| body.name.as_str());
+        self.find(name, "body", known).map(BodyId)
     }
 
-    pub(super) fn site(
-        &self,
-        name: &Name,
-        parts: &Parts,
-    ) -> Result<(BodyId, Point<Link>), FileError> {
-        parts
-            .sites
-            .get(name.get_ref())
-            .copied()
-            .ok_or_else(|| self.unknown(name, "site", parts.sites.keys().map(String::as_str)))
+    pub(super) fn site<'p>(&self, name: &Name, parts: &'p Parts) -> Result<&'p Site, FileError> {
+        let known = parts.sites.keys().map(String::as_str);
+        self.find(name, "site", known)?;
+        Ok(&parts.sites[name.get_ref()])
     }
 
     /// A positive number up to `largest`.

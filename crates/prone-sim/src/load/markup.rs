@@ -9,75 +9,6 @@ use roxmltree::{Attribute, Document, Node, TextPos};
 use prone::robot::bounds;
 use prone_files::FileError;
 
-/// Elements of a model.
-const ELEMENTS: [&str; 39] = [
-    "accelerometer",
-    "asset",
-    "body",
-    "camera",
-    "compiler",
-    "connect",
-    "contact",
-    "default",
-    "equality",
-    "exclude",
-    "flag",
-    "frame",
-    "freejoint",
-    "geom",
-    "global",
-    "gyro",
-    "headlight",
-    "inertial",
-    "joint",
-    "light",
-    "map",
-    "material",
-    "mujoco",
-    "option",
-    "pair",
-    "quality",
-    "rgba",
-    "scale",
-    "sensor",
-    "site",
-    "statistic",
-    "visual",
-    "weld",
-    "worldbody",
-    // Defaults of actuators that the model does not have.
-    "general",
-    "motor",
-    "position",
-    "velocity",
-    "intvelocity",
-];
-
-/// Attributes that hold a name, which may look like a number.
-const NAMES: [&str; 16] = [
-    "name",
-    "class",
-    "childclass",
-    "dclass",
-    "material",
-    "model",
-    "site",
-    "target",
-    "body1",
-    "body2",
-    "geom1",
-    "geom2",
-    "joint1",
-    "joint2",
-    "site1",
-    "site2",
-];
-
-/// The sensors of an inertial unit, and all that may be said of one. What else the engine reads of
-/// a sensor is memory (a history of samples), or what the program adds (noise).
-const SENSORS: [&str; 2] = ["accelerometer", "gyro"];
-const SENSOR_ATTRIBUTES: [&str; 2] = ["name", "site"];
-
 /// Checks elements, file references and numbers; `file` is the name that errors carry.
 pub(super) fn check(file: &str, text: &str) -> Result<(), FileError> {
     let error = |place: TextPos, message: String| FileError {
@@ -95,13 +26,13 @@ pub(super) fn check(file: &str, text: &str) -> Result<(), FileError> {
     })?;
     for node in document.descendants().filter(Node::is_element) {
         let at = |offset| document.text_pos_at(offset);
-        if let Some(reason) = refusal(&node) {
-            let message = format!("<{}> is not read here: {reason}", node.tag_name().name());
+        let element = node.tag_name().name();
+        if let Some(reason) = refusal(element) {
+            let message = format!("<{element}> is not read here: {reason}");
             return Err(error(at(node.range().start), message));
         }
         for attribute in node.attributes() {
-            check_sensor_attribute(node.tag_name().name(), &attribute)
-                .and_then(|()| check_attribute(&attribute))
+            check_attribute(element, &attribute)
                 .map_err(|message| error(at(attribute.range().start), message))?;
         }
     }
@@ -123,9 +54,16 @@ fn check_no_nul(file: &str, text: &str) -> Result<(), FileError> {
     })
 }
 
-fn refusal(node: &Node) -> Option<&'static str> {
-    let name = node.tag_name().name();
-    let reason = match name {
+/// Why an element is not read; `None` for one that a robot may have.
+fn refusal(element: &str) -> Option<&'static str> {
+    let reason = match element {
+        "accelerometer" | "asset" | "body" | "camera" | "compiler" | "connect" | "contact"
+        | "default" | "equality" | "exclude" | "flag" | "frame" | "freejoint" | "geom" | "global"
+        | "gyro" | "headlight" | "inertial" | "joint" | "light" | "map" | "material" | "mujoco"
+        | "option" | "pair" | "quality" | "rgba" | "scale" | "sensor" | "site" | "statistic"
+        | "visual" | "weld" | "worldbody"
+        // Defaults of actuators that the model does not have.
+        | "general" | "motor" | "position" | "velocity" | "intvelocity" => return None,
         "actuator" => "servos are added by the program, from robot.toml",
         "keyframe" => "postures are in robot.toml",
         "size" => "the engine finds its sizes itself",
@@ -133,36 +71,36 @@ fn refusal(node: &Node) -> Option<&'static str> {
         "extension" | "plugin" => "the engine runs without plugins",
         "mesh" | "hfield" | "skin" | "texture" | "deformable" | "flex" | "flexcomp"
         | "composite" => "robots are made of primitives",
-        _ if ELEMENTS.contains(&name) => return None,
         _ => "a robot needs none",
     };
     Some(reason)
 }
 
-fn check_sensor_attribute(element: &str, attribute: &Attribute) -> Result<(), String> {
-    let name = attribute.name();
-    if !SENSORS.contains(&element) || SENSOR_ATTRIBUTES.contains(&name) {
-        return Ok(());
-    }
-    Err(format!(
-        "{name} of <{element}> is not read here: a sensor has a name and a site; its noise is in robot.toml"
-    ))
-}
-
-fn check_attribute(attribute: &Attribute) -> Result<(), String> {
+fn check_attribute(element: &str, attribute: &Attribute) -> Result<(), String> {
     let (name, value) = (attribute.name(), attribute.value());
-    if name == "file" {
+    // All that may be said of a sensor of the inertial unit. What else the engine reads of one is
+    // memory (a history of samples), or what the program adds (noise).
+    let is_sensor = ["accelerometer", "gyro"].contains(&element);
+    if is_sensor && !["name", "site"].contains(&name) {
         return Err(format!(
-            "file {value:?} is not looked for: a model is one file"
+            "{name} of <{element}> is not read here: a sensor has a name and a site; its noise is in robot.toml"
         ));
     }
-    if NAMES.contains(&name) {
-        return Ok(());
+    match name {
+        "file" => {
+            return Err(format!(
+                "file {value:?} is not looked for: a model is one file"
+            ));
+        }
+        // What holds a name, which may look like a number.
+        "name" | "class" | "childclass" | "dclass" | "material" | "model" | "site" | "target"
+        | "body1" | "body2" | "geom1" | "geom2" | "joint1" | "joint2" | "site1" | "site2" => {
+            return Ok(());
+        }
+        _ => {}
     }
-    for number in value
-        .split_whitespace()
-        .map_while(|word| word.parse::<f64>().ok())
-    {
+    let words = value.split_whitespace();
+    for number in words.map_while(|word| word.parse::<f64>().ok()) {
         // Units differ, so this is no physical bound: those are checked on what the engine makes of
         // the text. A NaN is in no range.
         let largest = bounds::NUMBER;

@@ -5,32 +5,31 @@ use std::collections::BTreeMap;
 use glam::{DQuat, DVec3};
 use mujoco_rs::prelude::*;
 
-use prone::frames::{Geom, Link, Point, Transform};
+use prone::frames::{Link, Point, Transform};
 use prone::robot::{Body, BodyId, ContactGroup, Joint, JointId, Range, Shape, Solid};
 
-use super::problem::{ModelProblem, label};
 use super::{bounds, foreign};
+use crate::engine_numbers::{WORLD_BODY, collides, robot_body, rotation};
 
 /// What the model says; drives and contact groups are still to be filled in.
 pub(super) struct Parts {
     pub(super) bodies: Vec<Body>,
     pub(super) joints: Vec<Joint>,
     pub(super) shapes: Vec<Shape>,
-    pub(super) sites: BTreeMap<String, (BodyId, Point<Link>)>,
-    /// What is measured at each site that has a sensor.
-    pub(super) sensors: BTreeMap<String, SiteSensors>,
+    pub(super) sites: BTreeMap<String, Site>,
 }
 
-/// The sensors at one site.
-pub(super) struct SiteSensors {
-    /// The sensors' axes in the site's body.
-    pub(super) link_from_sensor: DQuat,
+/// A named place of the robot, and what is measured there.
+pub(super) struct Site {
+    pub(super) at: (BodyId, Point<Link>),
+    pub(super) link_from_axes: DQuat,
     pub(super) accelerometer: bool,
     pub(super) gyroscope: bool,
 }
 
-/// The engine's body 0 is the world and its joint 0 the free one: ours start after them.
-pub(super) fn read(model: &MjModel) -> Result<Parts, ModelProblem> {
+/// Reads a compiled model; a refusal is a message. The engine's body 0 is the world and its joint 0
+/// the free one: ours start after them.
+pub(super) fn read(model: &MjModel) -> Result<Parts, String> {
     check_root(model)?;
     let mut joints = Vec::new();
     let mut bodies = Vec::new();
@@ -45,17 +44,12 @@ pub(super) fn read(model: &MjModel) -> Result<Parts, ModelProblem> {
         joints,
         shapes: read_shapes(model)?,
         sites: read_sites(model),
-        sensors: read_sensors(model),
     })
 }
 
-fn check_root(model: &MjModel) -> Result<(), ModelProblem> {
-    let in_world = model
-        .body_parentid()
-        .iter()
-        .skip(1)
-        .filter(|&&parent| parent == 0);
-    let count = in_world.count();
+fn check_root(model: &MjModel) -> Result<(), String> {
+    let parents = model.body_parentid().iter().skip(1);
+    let count = parents.filter(|&&parent| parent == WORLD_BODY).count();
     let floats = model.jnt_type().first() == Some(&MjtJoint::mjJNT_FREE);
     if count == 1 && floats {
         return Ok(());
@@ -65,16 +59,20 @@ fn check_root(model: &MjModel) -> Result<(), ModelProblem> {
     } else {
         format!("it holds {count} bodies")
     };
-    Err(ModelProblem::Root { found })
+    Err(format!(
+        "the world must hold exactly one body, with a free joint; {found}"
+    ))
 }
 
-fn read_body(model: &MjModel, index: usize, joint: Option<JointId>) -> Result<Body, ModelProblem> {
-    let parent = usize::try_from(model.body_parentid()[index]).ok();
-    let parent = parent.and_then(|parent| parent.checked_sub(1)).map(BodyId);
+fn read_body(model: &MjModel, index: usize, joint: Option<JointId>) -> Result<Body, String> {
+    let parent = robot_body(model.body_parentid()[index]);
     let parent_from_body = match parent {
         // Where the model's file puts the root in the world is of no interest.
         None => Transform::translation(DVec3::ZERO),
-        Some(_) => pose(model.body_quat()[index], model.body_pos()[index]),
+        Some(_) => Transform::new(
+            rotation(model.body_quat()[index]).normalize(),
+            DVec3::from_array(model.body_pos()[index]),
+        ),
     };
     Ok(Body {
         name: name(model, MjtObjBase::mjOBJ_BODY, index, "body")?,
@@ -92,7 +90,7 @@ fn read_joint(
     model: &MjModel,
     body: usize,
     joints: &mut Vec<Joint>,
-) -> Result<Option<JointId>, ModelProblem> {
+) -> Result<Option<JointId>, String> {
     let count = model.body_jntnum()[body];
     let Ok(index) = usize::try_from(model.body_jntadr()[body]) else {
         return Ok(None);
@@ -102,13 +100,12 @@ fn read_joint(
         return Ok(None);
     }
     if count != 1 || kind != MjtJoint::mjJNT_HINGE {
-        return Err(ModelProblem::NotHinged {
-            body: name(model, MjtObjBase::mjOBJ_BODY, body, "body")?,
-        });
+        let body = name(model, MjtObjBase::mjOBJ_BODY, body, "body")?;
+        return Err(format!("body {body} must be fixed or move by one hinge"));
     }
     let name = name(model, MjtObjBase::mjOBJ_JOINT, index, "joint")?;
     if !model.jnt_limited()[index] {
-        return Err(ModelProblem::Unlimited { joint: name });
+        return Err(format!("joint {name} has no range"));
     }
     let [lower, upper] = model.jnt_range()[index];
     let id = JointId(joints.len());
@@ -126,14 +123,13 @@ fn read_joint(
     Ok(Some(id))
 }
 
-fn read_shapes(model: &MjModel) -> Result<Vec<Shape>, ModelProblem> {
+fn read_shapes(model: &MjModel) -> Result<Vec<Shape>, String> {
     let mut shapes = Vec::new();
     for (index, &kind) in model.geom_type().iter().enumerate() {
-        let body = usize::try_from(model.geom_bodyid()[index]).ok();
-        let Some(body) = body.and_then(|body| body.checked_sub(1)) else {
+        let Some(body) = robot_body(model.geom_bodyid()[index]) else {
             continue;
         };
-        if model.geom_contype()[index] == 0 && model.geom_conaffinity()[index] == 0 {
+        if !collides(model, index) {
             continue;
         }
         let geom = label(model, MjtObjBase::mjOBJ_GEOM, index);
@@ -154,79 +150,56 @@ fn read_shapes(model: &MjModel) -> Result<Vec<Shape>, ModelProblem> {
             MjtGeomBase::mjGEOM_BOX => Solid::Cuboid {
                 half_edges: DVec3::new(x, y, z),
             },
-            _ => return Err(ModelProblem::Shape { geom }),
+            _ => {
+                return Err(format!(
+                    "geom {geom}: only spheres, capsules, ellipsoids, cylinders and boxes may collide"
+                ));
+            }
         };
         shapes.push(Shape {
             name: geom,
-            body: BodyId(body),
-            link_from_geom: geom_pose(model, index),
+            body,
+            link_from_geom: Transform::new(
+                rotation(model.geom_quat()[index]).normalize(),
+                DVec3::from_array(model.geom_pos()[index]),
+            ),
             solid,
         });
     }
     Ok(shapes)
 }
 
-fn geom_pose(model: &MjModel, index: usize) -> Transform<Link, Geom> {
-    let pose = pose(model.geom_quat()[index], model.geom_pos()[index]);
-    Transform::new(pose.rotation(), pose.origin().metres())
-}
-
-fn read_sites(model: &MjModel) -> BTreeMap<String, (BodyId, Point<Link>)> {
+fn read_sites(model: &MjModel) -> BTreeMap<String, Site> {
     let mut sites = BTreeMap::new();
     for (index, &body) in model.site_bodyid().iter().enumerate() {
-        let body = usize::try_from(body)
-            .ok()
-            .and_then(|body| body.checked_sub(1));
         let name = model.id_to_name(MjtObjBase::mjOBJ_SITE, index);
-        if let (Some(body), Some(name)) = (body, name) {
-            let point = Point::new(DVec3::from_array(model.site_pos()[index]));
-            sites.insert(name.to_owned(), (BodyId(body), point));
-        }
+        let (Some(body), Some(name)) = (robot_body(body), name) else {
+            continue;
+        };
+        let has = |wanted| {
+            let mut sensors = model.sensor_type().iter().zip(model.sensor_objid());
+            sensors.any(|(&kind, &site)| kind == wanted && usize::try_from(site) == Ok(index))
+        };
+        let point = Point::new(DVec3::from_array(model.site_pos()[index]));
+        let site = Site {
+            at: (body, point),
+            link_from_axes: rotation(model.site_quat()[index]).normalize(),
+            accelerometer: has(MjtSensor::mjSENS_ACCELEROMETER),
+            gyroscope: has(MjtSensor::mjSENS_GYRO),
+        };
+        sites.insert(name.to_owned(), site);
     }
     sites
 }
 
-fn read_sensors(model: &MjModel) -> BTreeMap<String, SiteSensors> {
-    let mut sites = BTreeMap::<String, SiteSensors>::new();
-    for (kind, &site) in model.sensor_type().iter().zip(model.sensor_objid()) {
-        let Ok(site) = usize::try_from(site) else {
-            continue;
-        };
-        let Some(name) = model.id_to_name(MjtObjBase::mjOBJ_SITE, site) else {
-            continue;
-        };
-        let sensors = sites.entry(name.to_owned()).or_insert_with(|| {
-            let [w, x, y, z] = model.site_quat()[site];
-            SiteSensors {
-                link_from_sensor: DQuat::from_xyzw(x, y, z, w).normalize(),
-                accelerometer: false,
-                gyroscope: false,
-            }
-        });
-        match kind {
-            MjtSensor::mjSENS_ACCELEROMETER => sensors.accelerometer = true,
-            MjtSensor::mjSENS_GYRO => sensors.gyroscope = true,
-            _ => {}
-        }
-    }
-    sites
+fn name(model: &MjModel, kind: MjtObjBase, index: usize, word: &str) -> Result<String, String> {
+    let name = model.id_to_name(kind, index).map(str::to_owned);
+    name.ok_or_else(|| format!("{word} number {index} has no name"))
 }
 
-fn name(
-    model: &MjModel,
-    kind: MjtObjBase,
-    index: usize,
-    word: &'static str,
-) -> Result<String, ModelProblem> {
+/// How a refusal calls something of the model: by its name, or by its number where it has none.
+pub(super) fn label(model: &MjModel, kind: MjtObjBase, index: usize) -> String {
     model
         .id_to_name(kind, index)
-        .map(str::to_owned)
-        .ok_or(ModelProblem::Nameless { kind: word, index })
-}
-
-fn pose([w, x, y, z]: [f64; 4], position: [f64; 3]) -> Transform<Link, Link> {
-    Transform::new(
-        DQuat::from_xyzw(x, y, z, w).normalize(),
-        DVec3::from_array(position),
-    )
+        .map_or_else(|| format!("number {index}"), str::to_owned)
 }

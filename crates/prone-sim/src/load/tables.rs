@@ -8,8 +8,8 @@ use glam::DVec3;
 use prone::chain::ClosedChain;
 use prone::mapping::{self, MappingError};
 use prone::robot::{
-    ChainLayout, ContactGroup, FixedArm, JointAngles, Motor, PublishedChain, Range, Robot,
-    SideLayout, StudySetup, bounds,
+    ChainLayout, ContactGroup, FixedArm, Joint, JointAngles, Motor, PublishedChain, Range, Robot,
+    SideLayout, StudySetup, bounds, check_limbs,
 };
 use prone_files::FileError;
 use prone_files::robot_file::{
@@ -27,33 +27,35 @@ impl Lookup<'_> {
         self.equip_joints(&table.drives, &table.motors, &mut parts)?;
         let chain = self.chain(&table.chain, &parts)?;
         let study = self.study(&table.study, &table.postures, &parts)?;
-        let imu = match &table.imu {
-            None => None,
-            Some(imu) => Some(imu::read(self, imu, &parts)?),
-        };
-        let height = table.standing_height_mm.map(|height_mm| {
-            let largest = bounds::LENGTH * 1e3;
-            let height_mm =
-                self.positive(&table.model, "standing_height_mm", height_mm, largest)?;
-            Ok::<_, FileError>(height_mm * 1e-3)
-        });
-        let mut robot = Robot {
+        let imu = table.imu.as_ref();
+        let imu = imu.map(|imu| imu::read(self, imu, &parts)).transpose()?;
+        let standing_height = table
+            .standing_height_mm
+            .map(|mm| self.length(&table.model, "standing_height_mm", mm))
+            .transpose()?;
+        let lying_length_mm = &table.pictures.lying_length_mm;
+        let robot = Robot {
             name: table.name,
-            standing_height: height.transpose()?,
-            bodies: parts.bodies,
-            joints: parts.joints,
-            shapes: parts.shapes,
+            standing_height,
             chain,
-            postures: BTreeMap::new(),
             study,
             imu,
             control: control::read(self, &table.control)?,
             search: control::search(self, &table.search)?,
-            lying_length: control::lying_length(self, &table.pictures)?,
+            lying_length: self.length(
+                lying_length_mm,
+                "lying_length_mm",
+                *lying_length_mm.get_ref(),
+            )?,
+            postures: self.postures(&table.postures, &parts.joints)?,
+            bodies: parts.bodies,
+            joints: parts.joints,
+            shapes: parts.shapes,
         };
-        robot.postures = self.postures(&table.postures, &robot)?;
-        limbs::check(&robot, &table.chain)
-            .map_err(|(place, message)| self.error(place, message))?;
+        check_limbs(&robot).map_err(|error| {
+            let (place, message) = limbs::misplaced(&error, &table.chain);
+            self.error(place, message)
+        })?;
         // The chain must be a sagittal one and its arm projectable, or nothing else works.
         mapping::check_kinematics(&robot)
             .map_err(|error| self.error(place_of(&error, &table.chain), error))?;
@@ -70,7 +72,7 @@ impl Lookup<'_> {
         let mut seen = vec![false; parts.bodies.len()];
         for (group, names) in groups {
             for name in names {
-                let id = self.body(name, parts)?;
+                let id = self.body(name, &parts.bodies)?;
                 if std::mem::replace(&mut seen[id.0], true) {
                     let again = format!("body {} is in [contacts] twice", name.get_ref());
                     return Err(self.error(name, again));
@@ -79,7 +81,7 @@ impl Lookup<'_> {
             }
         }
         for name in &contacts.head {
-            let id = self.body(name, parts)?;
+            let id = self.body(name, &parts.bodies)?;
             parts.bodies[id.0].is_head = true;
         }
         let missing = seen.iter().position(|seen| !seen);
@@ -112,7 +114,7 @@ impl Lookup<'_> {
         let mut seen = vec![false; parts.joints.len()];
         for drive in drives {
             for name in &drive.joints {
-                let id = self.joint(name, parts)?;
+                let id = self.joint(name, &parts.joints)?;
                 if std::mem::replace(&mut seen[id.0], true) {
                     let again = format!("joint {} is in [[drives]] twice", name.get_ref());
                     return Err(self.error(name, again));
@@ -154,36 +156,34 @@ impl Lookup<'_> {
             let shaft = self.positive(name, what, millis, bounds::SHAFT_TORQUE * 1e3)?;
             Ok::<_, FileError>(shaft * 1e-3 * ratio)
         };
+        let no_load_speed = |rpm| {
+            let rpm = self.positive(name, "no_load_rpm", rpm, bounds::SHAFT_SPEED)?;
+            Ok::<_, FileError>(rpm * TAU / 60.0 / ratio)
+        };
         Ok(Some(Motor {
             ratio,
             nominal: at_joint("nominal_mnm", motor.nominal_mnm)?,
             stall: at_joint("stall_mnm", motor.stall_mnm)?,
-            no_load_speed: match motor.no_load_rpm {
-                None => None,
-                Some(rpm) => {
-                    let rpm = self.positive(name, "no_load_rpm", rpm, bounds::SHAFT_SPEED)?;
-                    Some(rpm * TAU / 60.0 / ratio)
-                }
-            },
+            no_load_speed: motor.no_load_rpm.map(no_load_speed).transpose()?,
         }))
     }
 
     fn chain(&self, table: &ChainTable, parts: &Parts) -> Result<ChainLayout, FileError> {
         let place = &table.left.toe;
         let arm = table.projected_upper_arm_mm;
+        let published = table.published.as_ref();
+        let fixed_arm = table.fixed_arm.as_ref();
         Ok(ChainLayout {
             left: self.side(&table.left, parts)?,
             right: self.side(&table.right, parts)?,
             span: self.length(place, "span_mm", table.span_mm)?,
             projected_upper_arm: self.length(place, "projected_upper_arm_mm", arm)?,
-            published: match &table.published {
-                None => None,
-                Some(published) => Some(self.published(place, published)?),
-            },
-            fixed_arm: match &table.fixed_arm {
-                None => None,
-                Some(fixed) => Some(self.fixed_arm(place, fixed)?),
-            },
+            published: published
+                .map(|table| self.published(place, table))
+                .transpose()?,
+            fixed_arm: fixed_arm
+                .map(|table| self.fixed_arm(place, table))
+                .transpose()?,
         })
     }
 
@@ -223,16 +223,17 @@ impl Lookup<'_> {
             let message = format!("forearm_direction {direction} is not a unit vector");
             return Err(self.error(&table.elbow, message));
         }
+        let joint = |name| self.joint(name, &parts.joints);
         let [upper, lower] = &table.forearm;
         Ok(SideLayout {
-            toe: self.site(&table.toe, parts)?,
-            ankle: self.joint(&table.ankle, parts)?,
-            knee: self.joint(&table.knee, parts)?,
-            hip: self.joint(&table.hip, parts)?,
-            shoulder: self.joint(&table.shoulder, parts)?,
-            shoulder_roll: self.joint(&table.shoulder_roll, parts)?,
-            elbow: self.site(&table.elbow, parts)?,
-            forearm: [self.joint(upper, parts)?, self.joint(lower, parts)?],
+            toe: self.site(&table.toe, parts)?.at,
+            ankle: joint(&table.ankle)?,
+            knee: joint(&table.knee)?,
+            hip: joint(&table.hip)?,
+            shoulder: joint(&table.shoulder)?,
+            shoulder_roll: joint(&table.shoulder_roll)?,
+            elbow: self.site(&table.elbow, parts)?.at,
+            forearm: [joint(upper)?, joint(lower)?],
             forearm_direction: direction,
         })
     }
@@ -250,7 +251,7 @@ impl Lookup<'_> {
         }
         let mut stops = Vec::new();
         for (name, &[lower, upper]) in &table.stops_rad {
-            let id = self.joint(name, parts)?;
+            let id = self.joint(name, &parts.joints)?;
             stops.push((id, self.range(name, Range { lower, upper })?));
         }
         Ok(StudySetup {
@@ -262,15 +263,13 @@ impl Lookup<'_> {
     fn postures(
         &self,
         table: &BTreeMap<String, BTreeMap<Name, f64>>,
-        robot: &Robot,
+        model_joints: &[Joint],
     ) -> Result<BTreeMap<String, JointAngles>, FileError> {
         let mut postures = BTreeMap::new();
         for (posture, joints) in table {
-            let mut angles = JointAngles::zero(robot);
+            let mut angles = JointAngles::from_fn(model_joints.len(), |_| 0.0);
             for (name, &angle) in joints {
-                let id = robot.joint(name.get_ref()).ok_or_else(|| {
-                    self.unknown(name, "joint", robot.joints.iter().map(|j| j.name.as_str()))
-                })?;
+                let id = self.joint(name, model_joints)?;
                 if angle.is_nan() || angle.abs() > bounds::ANGLE {
                     let joint = name.get_ref();
                     let message = format!("{joint} must be within -2π..2π rad, not {angle}");

@@ -1,3 +1,5 @@
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 
 use prone::frames::{Root, Transform};
@@ -65,7 +67,7 @@ fn regression_shipped_postures() {
         ("zero", 23.0, "LSole", "RSole"),
     ] {
         let angles = world.robot().postures.get(name).unwrap_or(&zero);
-        let closest = check.closest(angles).unwrap();
+        let closest = check.scan([angles]).unwrap();
         assert_eq!(closest.shapes, (one.to_owned(), other.to_owned()), "{name}");
         let off = (closest.distance_m * 1e3 - distance_mm).abs();
         // Half of the last digit, and what the engine iterates to.
@@ -112,14 +114,20 @@ fn capsule_distance(robot: &Robot, angles: &JointAngles, names: [&str; 2]) -> f6
     gap(s, t) - r - q
 }
 
-fn engine_distance(check: &mut SelfCollision, angles: &JointAngles, names: [&str; 2]) -> f64 {
-    let scan = check.scan([angles], f64::INFINITY).unwrap();
-    let mut pairs = scan.within_margin.iter();
-    let pair = pairs.find(|near| {
-        let (one, other) = &near.closest.shapes;
-        [one.as_str(), other.as_str()] == names
+/// The distance of every pair, m, by the names of its shapes.
+fn named_distances(check: &mut SelfCollision, angles: &JointAngles) -> BTreeMap<[String; 2], f64> {
+    let distances = check.distances([angles]).unwrap().into_iter();
+    let shapes = &check.robot.shapes;
+    let named = distances.zip(&check.pairs).map(|((distance, _), pair)| {
+        let names = pair.map(|shape| shapes[shape].name.clone());
+        (names, distance)
     });
-    pair.unwrap().closest.distance_m
+    named.collect()
+}
+
+fn engine_distance(check: &mut SelfCollision, angles: &JointAngles, names: [&str; 2]) -> f64 {
+    let distances = named_distances(check, angles);
+    distances[&names.map(str::to_owned)]
 }
 
 #[test]
@@ -167,22 +175,22 @@ fn limit_an_arm_through_the_head_collides() {
             )
         })
         .collect();
-    let start = check.closest(&swing[0]).unwrap();
+    let start = check.scan([&swing[0]]).unwrap();
     assert!(start.distance_m > 0.0, "{start:?}");
-    let scan = check.scan(&swing, 0.0).unwrap();
-    assert!(scan.closest.closest.distance_m < -0.02);
-    assert!(scan.closest.index > 0);
-    let (arm, head) = &scan.closest.closest.shapes;
+    let nearest = check.scan(&swing).unwrap();
+    assert!(nearest.distance_m < -0.02);
+    assert!(nearest.index > 0);
+    let (arm, head) = &nearest.shapes;
     assert!(arm.starts_with('L') && head == "Skull", "{arm} {head}");
-    assert!(
-        scan.within_margin
-            .iter()
-            .all(|near| near.closest.distance_m < 0.0)
-    );
-    assert_eq!(scan.within_margin[0], scan.closest);
     // At that posture alone it is the same.
-    let alone = check.closest(&swing[scan.closest.index]).unwrap();
-    assert_eq!(alone, scan.closest.closest);
+    let alone = check.scan([&swing[nearest.index]]).unwrap();
+    assert_eq!(
+        alone,
+        Nearest {
+            index: 0,
+            ..nearest
+        }
+    );
 }
 
 #[test]
@@ -190,7 +198,7 @@ fn limit_crossing_legs_collide() {
     let world = nao();
     let mut check = SelfCollision::new(&world).unwrap();
     let crossed = posture(world.robot(), &[("LHipRoll", -0.3), ("RHipRoll", 0.3)]);
-    let closest = check.closest(&crossed).unwrap();
+    let closest = check.scan([&crossed]).unwrap();
     assert!(closest.distance_m < -0.01, "{closest:?}");
     let (left, right) = &closest.shapes;
     assert!(
@@ -226,21 +234,15 @@ fn identity_left_mirrors_right() {
         _ => name.to_owned(),
     };
     for (name, angles) in &robot.postures {
-        let mirrored = mirror(angles);
-        let scan = check.scan([angles], f64::INFINITY).unwrap();
-        for near in &scan.within_margin {
-            let (one, other) = &near.closest.shapes;
+        let distances = named_distances(&mut check, angles);
+        let twins = named_distances(&mut check, &mirror(angles));
+        for ([one, other], distance) in &distances {
             let (one_twin, other_twin) = (side(one), side(other));
-            let twin = check.scan([&mirrored], f64::INFINITY).unwrap();
-            let twin = twin
-                .within_margin
-                .iter()
-                .find(|near| {
-                    let (a, b) = &near.closest.shapes;
-                    (*a == one_twin && *b == other_twin) || (*a == other_twin && *b == one_twin)
-                })
+            let twin = twins
+                .get(&[one_twin.clone(), other_twin.clone()])
+                .or_else(|| twins.get(&[other_twin, one_twin]))
                 .unwrap();
-            let off = (twin.closest.distance_m - near.closest.distance_m).abs();
+            let off = (twin - distance).abs();
             // What the engine iterates to.
             assert!(off < 1e-5, "{name}: {one} {other}, off by {off} m");
         }
@@ -253,16 +255,13 @@ fn limit_what_is_no_posture_is_refused() {
     let mut check = SelfCollision::new(&world).unwrap();
     let bad = posture(world.robot(), &[("LKneePitch", f64::NAN)]);
     assert_eq!(
-        check.closest(&bad).unwrap_err().to_string(),
+        check.scan([&bad]).unwrap_err().to_string(),
         "LKneePitch NaN rad at posture 0 is no angle"
     );
     let short = JointAngles::from_fn(3, |_| 0.0);
     assert_eq!(
-        check.closest(&short).unwrap_err().to_string(),
+        check.scan([&short]).unwrap_err().to_string(),
         "posture 0 has 3 joint angles, robot NAO H25 V4 has 24 joints"
     );
-    assert_eq!(
-        check.scan([], 0.0).unwrap_err(),
-        SelfCollisionError::NoPostures
-    );
+    assert_eq!(check.scan([]).unwrap_err(), SelfCollisionError::NoPostures);
 }

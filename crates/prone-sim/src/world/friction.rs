@@ -10,50 +10,37 @@ use prone::scene::SideFriction;
 
 use super::GeomRole;
 
-/// Which friction a body has.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Side {
-    Left,
-    Right,
-    /// Trunk and head.
-    Middle,
-}
-
 pub(super) fn set_by_side(
     model: &mut MjModel,
     roles: &[GeomRole],
     robot: &Robot,
     friction: SideFriction,
 ) {
-    let sides = sides(robot);
+    let of_bodies = of_bodies(robot, friction);
     for (geom, role) in model.geom_friction_mut().iter_mut().zip(roles) {
         geom[0] = match role {
-            GeomRole::Robot(body) => match sides[body.0] {
-                Side::Left => friction.left,
-                Side::Right => friction.right,
-                Side::Middle => friction.mean(),
-            },
+            GeomRole::Robot(body) => of_bodies[body.0],
             GeomRole::Floor | GeomRole::Obstacle(_) | GeomRole::Marker => 0.0,
         };
     }
 }
 
-/// The side of each body: a leg is the part of the tree that holds its hip and not the other one,
-/// an arm the same with the shoulders; what is in no limb is in the middle.
-fn sides(robot: &Robot) -> Vec<Side> {
+/// The friction of each body: a leg is the part of the tree that holds its hip and not the other one,
+/// an arm the same with the shoulders; what is in no limb has the mean of both sides.
+fn of_bodies(robot: &Robot, friction: SideFriction) -> Vec<f64> {
     let (left, right) = (&robot.chain.left, &robot.chain.right);
     let limbs = [
-        (Side::Left, limb(robot, left.hip, right.hip)),
-        (Side::Left, limb(robot, left.shoulder, right.shoulder)),
-        (Side::Right, limb(robot, right.hip, left.hip)),
-        (Side::Right, limb(robot, right.shoulder, left.shoulder)),
+        (friction.left, limb(robot, left.hip, right.hip)),
+        (friction.left, limb(robot, left.shoulder, right.shoulder)),
+        (friction.right, limb(robot, right.hip, left.hip)),
+        (friction.right, limb(robot, right.shoulder, left.shoulder)),
     ];
     (0..robot.bodies.len())
         .map(|body| {
             limbs
                 .iter()
                 .find(|(_, root)| robot.moves_with(BodyId(body), *root))
-                .map_or(Side::Middle, |(side, _)| *side)
+                .map_or(friction.mean(), |(friction, _)| *friction)
         })
         .collect()
 }
@@ -76,20 +63,26 @@ mod tests {
 
     #[test]
     fn limbs_have_sides_and_trunk_and_head_have_none() {
+        const FRICTION: SideFriction = SideFriction {
+            left: 1.0,
+            right: 2.0,
+        };
+        const MIDDLE: f64 = 1.5;
+        let is = |one: f64, other: f64| (one - other).abs() < 1e-12;
         let loaded = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
         let robot = loaded.robot();
-        let sides = sides(robot);
-        let (left, right) = (&robot.chain.left, &robot.chain.right);
-        assert_eq!(sides[left.toe.0.0], Side::Left);
-        assert_eq!(sides[left.elbow.0.0], Side::Left);
-        assert_eq!(sides[right.toe.0.0], Side::Right);
-        assert_eq!(sides[right.elbow.0.0], Side::Right);
-        let count = |wanted| sides.iter().filter(|&&side| side == wanted).count();
-        assert_eq!(count(Side::Left), count(Side::Right));
+        let bodies = of_bodies(robot, FRICTION);
+        let sides = [FRICTION.left, FRICTION.right];
+        for (side, friction) in robot.chain.sides().into_iter().zip(sides) {
+            assert!(is(bodies[side.toe.0.0], friction));
+            assert!(is(bodies[side.elbow.0.0], friction));
+        }
+        let count = |wanted| bodies.iter().filter(|&&it| is(it, wanted)).count();
+        assert_eq!(count(FRICTION.left), count(FRICTION.right));
         // The trunk, the neck and the head.
-        assert_eq!(count(Side::Middle), 3);
-        for (body, side) in robot.bodies.iter().zip(&sides) {
-            assert!(!body.is_head || *side == Side::Middle, "{}", body.name);
+        assert_eq!(count(MIDDLE), 3);
+        for (body, &friction) in robot.bodies.iter().zip(&bodies) {
+            assert!(!body.is_head || is(friction, MIDDLE), "{}", body.name);
         }
     }
 }

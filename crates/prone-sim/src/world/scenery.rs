@@ -3,10 +3,11 @@
 use glam::DQuat;
 use mujoco_rs::prelude::*;
 
-use prone::scene::{Heights, Marker, Obstacle, ObstacleKind, Roughness, Scene, SideFriction};
+use prone::scene::{Heights, Marker, Obstacle, ObstacleKind, Roughness, Scene};
 
 use super::{GeomRole, add_world_geom};
 use crate::camera;
+use crate::engine_numbers::real_first;
 
 /// The engine's name for the grid of heights.
 const ROUGH: &str = "rough ground";
@@ -25,27 +26,19 @@ const GLASS: [f32; 4] = [0.35, 0.55, 0.75, 0.35];
 
 /// What a scene adds to the world, in the order in which it is added.
 pub(super) struct Scenery<'a> {
-    scene: &'a Scene,
+    pub(super) scene: &'a Scene,
     rough: Option<(&'a Roughness, Heights)>,
     obstacles: Vec<Obstacle>,
 }
 
 impl<'a> Scenery<'a> {
-    pub(super) fn of(scene: &'a Scene) -> Self {
+    pub(super) fn from_scene(scene: &'a Scene) -> Self {
         let rough = scene.floor.roughness.as_ref();
         Self {
             scene,
             rough: rough.map(|rough| (rough, rough.heights())),
             obstacles: scene.obstacles(),
         }
-    }
-
-    pub(super) fn slope(&self) -> f64 {
-        self.scene.floor.slope
-    }
-
-    pub(super) fn friction(&self) -> Option<SideFriction> {
-        self.scene.floor.friction
     }
 
     /// Of the world's geoms: the floor, then all that [`Self::add_to`] adds.
@@ -130,10 +123,6 @@ fn add_marker(spec: &mut MjSpec, marker: &Marker, friction: [f64; 3]) {
         .with_rgba(RED)
         .with_contype(0)
         .with_conaffinity(0);
-}
-
-const fn real_first(turn: DQuat) -> [f64; 4] {
-    [turn.w, turn.x, turn.y, turn.z]
 }
 
 #[cfg(test)]

@@ -237,8 +237,8 @@ impl CycleCosts {
         let further = clamped_further(&self.allowed_clamps, checked.clamps());
         cost.add("limits", further);
         // Its engine data is scratch.
-        match self.collision.clone().scan(&postures, f64::NEG_INFINITY) {
-            Ok(scan) => cost.add("limbs", depth_of(scan.closest.closest.distance_m)),
+        match self.collision.clone().scan(&postures) {
+            Ok(nearest) => cost.add("limbs", depth_of(nearest.distance_m)),
             Err(error) => {
                 cost.add("limbs", UNTRIED);
                 cost.refusal = Some(error.into());

@@ -6,14 +6,17 @@ use std::sync::{Mutex, PoisonError};
 use rayon::prelude::*;
 use serde::Serialize;
 
+use prone::chain::GaitParameters;
 use prone::robot::Robot;
 use prone::statics::{Stance, StaticTorques, SupportRule, SymmetryError};
-use prone::torque_map::{self, GridError, Mask, RecordedMap, Row, TorqueMap};
+use prone::torque_map::{
+    self, ContactForces, GridError, JointTorques, Mask, RecordedMap, Row, TorqueGap, TorqueMap,
+};
 use prone_record::resumption::{Journal, Opening, ResumptionError, Work};
 use prone_sim::settled::SettledTorques;
 use prone_sim::{World, WorldError};
 
-use super::gauge::{self, Entry, Gauge, SettledGauge, StaticGauge};
+use super::entry::Entry;
 use super::job::REGIME;
 use super::{Job, KeptRow};
 use crate::watch::{Progress, Watch};
@@ -96,20 +99,30 @@ pub fn run(
     let mapping = job.mapping.clone();
     // The journal is opened last: what cannot be measured leaves none.
     let open = || open(job, place);
+    let joints = robot.chain.right.pitch_joints();
     let (entries, journal) = match job.source {
         MapSource::Statics => {
             let stance = Stance::unsqueezed(SupportRule::AnyShape);
             let source = StaticTorques::new(robot, mapping, &robot.study_stops(), stance)?;
-            measure(job, &StaticGauge { robot, source }, open()?, watch)?
+            let gauge = |at| {
+                let rest = source.rest(at)?;
+                let mut forces = [0.0; 4];
+                for support in rest.footing.supports() {
+                    forces[support.group as usize] += support.reaction;
+                }
+                Ok([joints.map(|joint| rest.load(joint)), forces])
+            };
+            measure(job, gauge, open()?, watch)?
         }
         MapSource::Simulation => {
             let world = World::new(job.robot, REGIME)?;
             let source = SettledTorques::new(&world, mapping);
-            let gauge = SettledGauge {
-                world: &world,
-                source,
+            let gauge = |at| {
+                let means = source.settled(at)?.means;
+                let torques = joints.map(|joint| -means.actuator_torque[joint.0]);
+                Ok([torques, means.contact])
             };
-            measure(job, &gauge, open()?, watch)?
+            measure(job, gauge, open()?, watch)?
         }
     };
     let recorded = recorded(job, &entries)?;
@@ -140,17 +153,18 @@ fn open(job: &Job<'_>, place: Option<(&Path, Opening)>) -> Result<Kept, Resumpti
     };
     let (journal, kept) = Journal::<KeptRow>::open(Work::TorqueMap, out, &job.identity(), opening)?;
     for (line, row) in kept.iter().enumerate() {
-        let (index, entry) = row.entry();
+        let KeptRow(index, entry) = *row;
         let place = entries.get_mut(index);
         *place.ok_or_else(|| journal.impossible(line, row))? = Some(entry);
     }
     Ok((Some(journal), entries))
 }
 
-/// Entries in the grid's order: those of the journal, and measured ones for the rest.
+/// Entries in the grid's order: those of the journal, and measured ones for the rest. A gauge gives
+/// the torques of the right side in the recordings' sign, and what carries both sides.
 fn measure(
     job: &Job<'_>,
-    gauge: &impl Gauge,
+    gauge: impl Fn(GaitParameters) -> Result<[[f64; 4]; 2], TorqueGap> + Sync,
     (journal, mut entries): Kept,
     watch: &dyn Watch,
 ) -> Result<(Vec<Entry>, Option<Journal<KeptRow>>), BuildError> {
@@ -169,9 +183,9 @@ fn measure(
             if watch.stop() {
                 return Ok(None);
             }
-            let entry = gauge::entry(gauge, job.grid.grid().node(row));
+            let entry = Entry::from_measured(&gauge(job.grid.grid().node(row)));
             if let Some(journal) = &mut *journal.lock().unwrap_or_else(PoisonError::into_inner) {
-                journal.append(&KeptRow::new(row, &entry))?;
+                journal.append(&KeptRow(row, entry))?;
             }
             watch.progress(&Progress::Done(1));
             Ok(Some((row, entry)))
@@ -201,16 +215,19 @@ fn measure(
 }
 
 fn recorded(job: &Job<'_>, entries: &[Entry]) -> Result<RecordedMap, GridError> {
-    let (rows, contacts) = entries
-        .iter()
-        .map(|entry| match *entry {
-            Entry::Held { torques, contacts } => (Row::Torques(torques), Some(contacts)),
-            Entry::Masked(mask) => {
-                let recorded = None;
-                (Row::Masked { mask, recorded }, None)
-            }
-        })
-        .unzip();
+    let masked = |mask| {
+        let recorded = None;
+        (Row::Masked { mask, recorded }, None)
+    };
+    let row = |entry: &Entry| match *entry {
+        Entry::Held { torques, contacts } => (
+            Row::Torques(JointTorques::from_array(torques)),
+            Some(ContactForces::from_array(contacts)),
+        ),
+        Entry::Open => masked(Mask::Open),
+        Entry::Failed => masked(Mask::Failed),
+    };
+    let (rows, contacts) = entries.iter().map(row).unzip();
     RecordedMap::new(TorqueMap::new(*job.grid.grid(), rows)?, contacts)
 }
 

@@ -43,13 +43,13 @@ pub enum JobError {
     Symmetry(#[from] SymmetryError),
 }
 
-/// By what two builds are told apart, name by name.
-pub(super) type Identity = BTreeMap<String, String>;
-
-const fn meaning(source: MapSource) -> &'static str {
+/// What a source does, with its number where it has one.
+fn meaning(source: MapSource) -> String {
     match source {
-        MapSource::Statics => "rigid body at rest, any shape may carry, no squeeze",
-        MapSource::Simulation => "pose held until at rest",
+        MapSource::Statics => "rigid body at rest, any shape may carry, no squeeze".to_owned(),
+        MapSource::Simulation => format!(
+            "pose held until at rest: no motor's mean torque changes by more than {STILL} N·m per control step"
+        ),
     }
 }
 
@@ -89,14 +89,9 @@ impl<'r> Job<'r> {
         self.grid.grid().len()
     }
 
-    /// What decides every byte of the result.
-    pub(super) fn identity(&self) -> Identity {
+    /// What decides every byte of the result, and tells two builds apart, name by name.
+    pub(super) fn identity(&self) -> BTreeMap<String, String> {
         let Program { version, commit } = &self.program;
-        let mut identity: Identity = self
-            .grid
-            .bounds()
-            .map(|(name, value)| (name.to_owned(), value))
-            .into();
         let others = [
             ("program", format!("prone {version}, commit {commit}")),
             ("source", self.source.name().to_owned()),
@@ -107,8 +102,10 @@ impl<'r> Job<'r> {
             ("robot sha256", self.robot.files().hash()),
             ("engine", prone_sim::engine_version()),
         ];
-        identity.extend(others.map(|(name, value)| (name.to_owned(), value)));
-        identity
+        let names = self.grid.bounds().into_iter().chain(others);
+        names
+            .map(|(name, value)| (name.to_owned(), value))
+            .collect()
     }
 
     /// The comments at the head of the file, one per line.
@@ -124,7 +121,7 @@ impl<'r> Job<'r> {
         });
         vec![
             format!("torque map by prone {version}, commit {commit}"),
-            format!("source: {}: {}", self.source.name(), self.still()),
+            format!("source: {}: {}", self.source.name(), meaning(self.source)),
             format!("regime: {}", regime(self.source)),
             format!("mapping: {}; arms: {}", VARIANT.name(), ARM.name()),
             format!("robot: {robot}, sha256 {}{version_of_family}", files.hash()),
@@ -141,16 +138,5 @@ impl<'r> Job<'r> {
             "NaN: without theta1 no chain closes there, else the source had no torques".to_owned(),
             format!("columns: {}", COLUMNS.join(",")),
         ]
-    }
-
-    /// What the source does, with its number where it has one.
-    fn still(&self) -> String {
-        let meaning = meaning(self.source);
-        match self.source {
-            MapSource::Statics => meaning.to_owned(),
-            MapSource::Simulation => format!(
-                "{meaning}: no motor's mean torque changes by more than {STILL} N·m per control step"
-            ),
-        }
     }
 }
