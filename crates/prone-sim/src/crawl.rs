@@ -140,9 +140,6 @@ pub enum CrawlError {
 }
 
 /// Simulates a crawl from a settled start and returns its record.
-///
-/// # Errors
-/// [`CrawlError`].
 pub fn run(world: &World, plan: &CrawlPlan, pilot: impl Pilot) -> Result<Crawl, CrawlError> {
     let never = || false;
     run_unless(&never, world, plan, pilot)

@@ -122,9 +122,6 @@ pub enum PullError {
 }
 
 /// The trajectory that [`run`] commands: one sample per control step.
-///
-/// # Errors
-/// [`TrajectoryError`].
 pub fn plan(
     world: &World,
     gait: &Gait,
@@ -140,9 +137,6 @@ pub fn plan(
 }
 
 /// Runs one phase of a gait.
-///
-/// # Errors
-/// [`PullError`].
 pub fn run(
     world: &World,
     gait: &Gait,
@@ -198,9 +192,6 @@ pub fn placement(
 }
 
 /// Lays the robot down and lets the servos hold it for [`SETTLE`].
-///
-/// # Errors
-/// [`SimulationError`].
 pub fn settle(world: &World, placement: &Placement) -> Result<Simulation, SimulationError> {
     let mut simulation = Simulation::new(world, placement);
     for _ in 0..whole_steps(SETTLE) {
@@ -210,9 +201,6 @@ pub fn settle(world: &World, placement: &Placement) -> Result<Simulation, Simula
 }
 
 /// Commands a trajectory made by [`plan`] from where the robot is.
-///
-/// # Errors
-/// [`SimulationError`].
 pub fn proceed(
     mut simulation: Simulation,
     trajectory: CheckedTrajectory,

@@ -140,9 +140,6 @@ impl SelfCollision {
 
     /// The nearest pair in a sequence of postures. What happens between two postures is not seen, and
     /// limits are not looked at.
-    ///
-    /// # Errors
-    /// [`SelfCollisionError`].
     pub fn scan<'a>(
         &mut self,
         postures: impl IntoIterator<Item = &'a JointAngles>,

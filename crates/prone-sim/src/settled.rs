@@ -55,9 +55,6 @@ pub enum SettleError {
 }
 
 /// Lays a robot down and waits until it is at rest.
-///
-/// # Errors
-/// [`SettleError`].
 pub fn settle(world: &World, placement: &Placement) -> Result<Settled, SettleError> {
     let mut simulation = Simulation::new(world, placement);
     let mut means = simulation.control_step()?;

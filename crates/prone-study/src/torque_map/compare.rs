@@ -122,9 +122,6 @@ struct Pair {
 }
 
 /// Compares two maps; `worst` is how many of the worst rows are kept.
-///
-/// # Errors
-/// [`CompareError`].
 pub fn compare(a: &RecordedMap, b: &RecordedMap, worst: usize) -> Result<Comparison, CompareError> {
     let common = nodes::common(a.map().grid(), b.map().grid())?;
     let rows = |file: &RecordedMap, row: usize| file.map().rows()[row];

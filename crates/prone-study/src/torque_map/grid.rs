@@ -70,9 +70,6 @@ pub enum NodeGridError {
 
 impl NodeGrid {
     /// θ3 −5…45°, θ4 −30° to a bound, α −90…−30°.
-    ///
-    /// # Errors
-    /// [`NodeGridError`].
     pub fn new(step_deg: f64, theta4_max_deg: f64) -> Result<Self, NodeGridError> {
         if !(step_deg > 0.0 && step_deg.is_finite()) {
             return Err(NodeGridError::Step { step_deg });

@@ -100,9 +100,6 @@ pub fn slices(map: &TorqueMap, wanted_deg: &[f64]) -> Result<Vec<usize>, PlotErr
 }
 
 /// Drawings of some slices, and `run.json`.
-///
-/// # Errors
-/// [`PlotError`].
 pub fn artefacts(
     map: &TorqueMap,
     slices: &[usize],
