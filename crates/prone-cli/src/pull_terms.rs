@@ -120,7 +120,7 @@ fn objective(
     let weights = match args.weights.as_deref() {
         None => [1.0; 4],
         Some(&[ankle, knee, hip, shoulder]) => [ankle, knee, hip, shoulder],
-        Some(weights) => return Err(refusal::of_weights(weights)),
+        Some(weights) => return Err(Failure::Input(anyhow!(refusal::of_weights(weights)))),
     };
     let published = PublishedRules::PUBLISHED;
     let threshold = args

@@ -7,8 +7,7 @@ use prone_record::experiment::{Experiment, Under};
 use prone_study::crawl::CrawlSetupError;
 use prone_study::run::RunError;
 use prone_study::search::cycle_jobs::CycleSearchError;
-use prone_study::search::pull_terms::{HEAVIEST, PullTermsError};
-use prone_study::search::pulls::PullSearchError;
+use prone_study::search::pull_error::{HEAVIEST, PullCostError};
 use prone_study::search::room::NoRoom;
 use prone_thesis::reproduce::ReproduceError;
 
@@ -37,31 +36,33 @@ pub(crate) fn of_study(error: RunError, experiment: &Experiment) -> Failure {
         RunError::Setup(error) => return of_crawl(error),
         RunError::CycleSearch(error) => return of_cycle_search(*error, experiment),
         RunError::NoRoom(error) => no_room("--ceiling-mm", error),
-        RunError::OtherKind { .. } => {
-            format!("{error}: leave out --from, or name a gait of the same kind there")
-        }
         RunError::Searches { .. } => format!("{error}; without --resume it is replaced"),
-        RunError::PullSearch(PullSearchError::NameTaken { .. }) => {
-            format!("{error}: give it another --name")
-        }
-        RunError::PullSearch(PullSearchError::PublishedForm) => {
-            "--objective published has a cost for cubics with fixed ends only: leave out --gait-form and --ends".to_owned()
-        }
-        RunError::Terms(PullTermsError::Weights { weights })
-        | RunError::PullSearch(PullSearchError::Terms(PullTermsError::Weights { weights })) => {
-            return of_weights(&weights);
-        }
+        RunError::Pulls(error) => of_pulls(error),
         error if error.is_work() => return Failure::work(error),
         error => return Failure::input(error),
     };
     Failure::Input(anyhow!(message))
 }
 
+fn of_pulls(error: PullCostError) -> String {
+    match &error {
+        PullCostError::OtherKind { .. } => {
+            format!("{error}: leave out --from, or name a gait of the same kind there")
+        }
+        PullCostError::NameTaken { .. } => format!("{error}: give it another --name"),
+        PullCostError::PublishedForm => {
+            format!("{error}: leave out --gait-form and --ends")
+        }
+        PullCostError::Weights { weights } => of_weights(weights),
+        _ => error.to_string(),
+    }
+}
+
 /// Weights that are not four, or weigh nothing or too much.
-pub(crate) fn of_weights(weights: &[f64]) -> Failure {
-    Failure::Input(anyhow!(
+pub(crate) fn of_weights(weights: &[f64]) -> String {
+    format!(
         "--weights takes four numbers from 0 to {HEAVIEST}, not all 0 (ankle, knee, hip, shoulder), not {weights:?}"
-    ))
+    )
 }
 
 /// Why a reproduction has no outcome.

@@ -145,7 +145,10 @@ impl Session {
             Experiment::Pull(it) => Outcome::Pull(Box::new(self.pull(it, watch)?)),
             Experiment::Crawl(it) => Outcome::Crawl(Box::new(self.crawl(it, watch)?)),
             Experiment::Passage(it) => Outcome::Passage(Box::new(self.passage(it, watch)?)),
-            Experiment::Cost(it) => Outcome::Cost(Box::new(search::cost(it)?)),
+            Experiment::Cost(it) => {
+                let robot = LoadedRobot::load(it.robot.files()?)?;
+                Outcome::Cost(Box::new(search::cost(it, &robot)?))
+            }
             Experiment::PullSearch(it) => Outcome::Search(self.pull_search(it, watch)?),
             Experiment::CycleSearch(it) => Outcome::Search(self.cycle_search(it, watch)?),
             Experiment::TorqueMap(it) => Outcome::TorqueMap(Box::new(self.torque_map(it, watch)?)),

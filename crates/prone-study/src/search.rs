@@ -24,6 +24,7 @@ pub mod cycles;
 pub mod passage;
 pub mod published;
 pub mod pull_cost;
+pub mod pull_error;
 pub mod pull_form;
 pub mod pull_terms;
 pub mod pull_trial;

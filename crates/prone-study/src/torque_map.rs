@@ -12,4 +12,4 @@ pub mod plot;
 
 pub use entry::KeptRow;
 pub use grid::{MOST_ROWS, NodeGrid, NodeGridError};
-pub use job::{Job, JobError};
+pub use job::{BuildError, Job};

@@ -16,17 +16,13 @@ use prone_sim::{LoadError, WorldError};
 
 use crate::crawl::record::RecordError;
 use crate::crawl::{CrawlRunError, CrawlSetupError, RefusedCycle};
-use crate::search::candidates::Refusal;
 use crate::search::cycle_jobs::CycleSearchError;
 use crate::search::passage::PassageError;
-use crate::search::pull_cost::PullCostError;
-use crate::search::pull_terms::{AdvanceError, PullTermsError};
-use crate::search::pulls::PullSearchError;
+use crate::search::pull_error::PullCostError;
 use crate::search::room::NoRoom;
 use crate::search::run::SearchError;
 use crate::search::settings::SettingError;
-use crate::torque_map::build::BuildError;
-use crate::torque_map::{JobError, NodeGridError};
+use crate::torque_map::BuildError;
 
 /// Why an experiment has no outcome.
 #[derive(Debug, thiserror::Error)]
@@ -67,29 +63,9 @@ pub enum RunError {
     /// Cycles cannot be tried.
     #[error(transparent)]
     Setting(#[from] SettingError),
-    /// Costs cannot be made of what was asked for.
+    /// Pulls have no costs, or cannot be searched.
     #[error(transparent)]
-    Terms(#[from] PullTermsError),
-    /// Pulls have no costs.
-    #[error(transparent)]
-    Costs(#[from] PullCostError),
-    /// A pull has no cost per metre.
-    #[error(transparent)]
-    Advance(#[from] AdvanceError),
-    /// The objective has no cost for a pull.
-    #[error(transparent)]
-    NoCost(Box<Refusal>),
-    /// A pull and the base of its costs are of two kinds.
-    #[error("gait {gait} and the base gait {base} differ in mapping or arms")]
-    OtherKind {
-        /// The pull's name.
-        gait: String,
-        /// The base gait's name.
-        base: String,
-    },
-    /// Pulls cannot be searched.
-    #[error(transparent)]
-    PullSearch(#[from] PullSearchError),
+    Pulls(#[from] PullCostError),
     /// Cycles cannot be searched.
     #[error(transparent)]
     CycleSearch(Box<CycleSearchError>),
@@ -107,12 +83,6 @@ pub enum RunError {
         /// How many there should be.
         expected: usize,
     },
-    /// A torque map has no such grid.
-    #[error(transparent)]
-    Grid(#[from] NodeGridError),
-    /// A torque map of the robot cannot be built.
-    #[error(transparent)]
-    Map(#[from] JobError),
     /// There is no torque map.
     #[error(transparent)]
     Build(Box<BuildError>),
@@ -213,5 +183,23 @@ impl From<PassageError> for RunError {
 impl From<ResumptionError> for RunError {
     fn from(error: ResumptionError) -> Self {
         Self::Resumption(Box::new(error))
+    }
+}
+
+impl From<BuildError> for RunError {
+    fn from(error: BuildError) -> Self {
+        match error {
+            BuildError::Stopped {
+                kept,
+                rows,
+                journal: Some(journal),
+            } if kept > 0 => Self::StoppedMap {
+                done: kept,
+                rows,
+                journal,
+            },
+            BuildError::Stopped { .. } => Self::Stopped,
+            other => Self::Build(Box::new(other)),
+        }
     }
 }

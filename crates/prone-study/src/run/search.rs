@@ -16,6 +16,7 @@ use super::{RunError, Session};
 use crate::search::candidates::{Depth, Refusal};
 use crate::search::cycles::CycleRun;
 use crate::search::pull_cost::PullCosts;
+use crate::search::pull_error::PullCostError;
 use crate::search::pull_terms::{PullAim, PullTerms, Share, check_advance};
 use crate::search::pulls::PullRun;
 use crate::search::run::{self, Checkpoint, SearchError, SearchRun};
@@ -33,18 +34,20 @@ pub struct CostOutcome {
 }
 
 /// What a pull costs, and what it breaks.
-pub(super) fn cost(experiment: &CostExperiment) -> Result<CostOutcome, RunError> {
-    let robot = LoadedRobot::load(experiment.robot.files()?)?;
+pub(super) fn cost(
+    experiment: &CostExperiment,
+    robot: &LoadedRobot,
+) -> Result<CostOutcome, PullCostError> {
     let gait = experiment.gait.parse(gait_file::parse)?;
-    let world = World::new(&robot, Regime::TORQUE_STUDY)?;
+    let world = World::new(robot, Regime::TORQUE_STUDY)?;
     let terms = PullTerms::new(&experiment.terms, &world)?;
     let base = &terms.base;
     let same_kind = (gait.mapping, gait.arm) == (base.mapping, base.arm);
     if matches!(terms.aim, PullAim::Graded(_)) && !same_kind {
-        return Err(RunError::OtherKind {
-            gait: gait.name,
-            base: base.name.clone(),
-        });
+        let kind =
+            |gait: &Gait| [&*gait.name, gait.mapping.name(), gait.arm.name()].map(str::to_owned);
+        let (gait, base) = (kind(&gait), kind(base));
+        return Err(PullCostError::OtherKind { gait, base });
     }
     if terms.share == Share::Metre {
         check_advance(world.robot(), &gait)?;
@@ -52,8 +55,8 @@ pub(super) fn cost(experiment: &CostExperiment) -> Result<CostOutcome, RunError>
     let unit = terms.aim.objective().unit();
     let costs = PullCosts::new(&world, terms)?;
     let cost = costs.cost(&gait, Depth::Everything);
-    if let Some(refusal @ Refusal::NotCubic { .. }) = cost.refusal {
-        return Err(RunError::NoCost(Box::new(refusal)));
+    if let Some(Refusal::NotCubic) = cost.refusal {
+        return Err(PullCostError::NotCubic { gait: gait.name });
     }
     let cost = costs.record(&cost);
     Ok(CostOutcome { gait, cost, unit })

@@ -7,8 +7,8 @@ use prone_record::single_file;
 use prone_sim::LoadedRobot;
 
 use super::{RunError, Session, uninterrupted};
-use crate::torque_map::build::{self, BuildError, Built, Summary};
-use crate::torque_map::{Job, NodeGrid};
+use crate::torque_map::build::{self, Built, Summary};
+use crate::torque_map::{BuildError, Job, NodeGrid};
 use crate::watch::Watch;
 
 /// A torque map.
@@ -31,7 +31,8 @@ impl Session {
         experiment: &TorqueMapExperiment,
         watch: &dyn Watch,
     ) -> Result<MapOutcome, RunError> {
-        let grid = NodeGrid::new(experiment.step_deg, experiment.theta4_max_deg)?;
+        let grid = NodeGrid::new(experiment.step_deg, experiment.theta4_max_deg);
+        let grid = grid.map_err(BuildError::from)?;
         let robot = LoadedRobot::load(experiment.robot.files()?)?;
         let job = Job::new(&robot, experiment.source, grid, &self.program)?;
         let place = self.place.as_ref();
@@ -46,7 +47,7 @@ impl Session {
             text,
             summary,
             journal,
-        } = built.map_err(stopped_map)?;
+        } = built?;
         let wall = started.elapsed();
         let path = journal.as_ref().map(|journal| journal.path().to_owned());
         let published = uninterrupted(watch, || {
@@ -74,21 +75,5 @@ impl Session {
             wall,
             threads: pool.current_num_threads(),
         })
-    }
-}
-
-fn stopped_map(error: BuildError) -> RunError {
-    match error {
-        BuildError::Stopped {
-            kept,
-            rows,
-            journal: Some(journal),
-        } if kept > 0 => RunError::StoppedMap {
-            done: kept,
-            rows,
-            journal,
-        },
-        BuildError::Stopped { .. } => RunError::Stopped,
-        other => RunError::Build(Box::new(other)),
     }
 }

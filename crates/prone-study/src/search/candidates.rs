@@ -64,14 +64,10 @@ pub struct Cost {
 /// Why a gait could not be moved, or has no cost.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Refusal {
-    /// The published objective has no cost for it.
-    #[error(
-        "gait {gait} has a curve that is no polynomial of degree 3 or less, and the objective `published` has a cost for nothing else"
-    )]
-    NotCubic {
-        /// The gait's name.
-        gait: String,
-    },
+    /// A curve is no polynomial of degree 3 or less, and the published objective has a cost for
+    /// nothing else.
+    #[error("a curve is no polynomial of degree 3 or less")]
+    NotCubic,
     /// The pull cannot be simulated.
     #[error(transparent)]
     Pull(#[from] PullTrialError),

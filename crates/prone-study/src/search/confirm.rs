@@ -10,8 +10,7 @@ use prone_record::gait_search::{Confirmation, Refusal, Row, Verdict};
 use prone_record::pulls::JOINTS;
 use rayon::prelude::*;
 
-use prone::cost::CostError;
-use prone::cost::objective::{NoMotor, Objective};
+use prone::cost::objective::Objective;
 use prone::gait::cycle::Cycle;
 use prone::gait::{Gait, PhaseDuration};
 use prone::robot::Robot;
@@ -21,6 +20,7 @@ use prone_sim::pull::{self, Keep, Pull, Start};
 
 use super::cycle_rules::holds;
 use super::pull_trial;
+use super::run::SearchError;
 use super::setting::{Role, Setting};
 use super::trial::{Trial, try_out};
 use crate::pulls::pull_record;
@@ -35,28 +35,14 @@ pub struct PullSetting {
     pub duration: PhaseDuration,
 }
 
-/// Why there is no confirmation.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum ConfirmError {
-    /// The objective does not fit the robot.
-    #[error(transparent)]
-    NoMotor(#[from] NoMotor),
-    /// A record has no cost.
-    #[error(transparent)]
-    Cost(#[from] CostError),
-    /// The user asked to stop.
-    #[error("stopped before the end")]
-    Stopped,
-}
-
 /// Moves every gait in every setting, on the current rayon pool. What it comes to, a refusal
 /// included, stands by gait and then by setting.
 fn in_every<S: Sync, G: Sync, R: Send>(
     gaits: &[G],
     settings: &[S],
     watch: &dyn Watch,
-    measure: impl Fn(&G, &S) -> R + Sync,
-) -> Result<Vec<Vec<R>>, ConfirmError> {
+    measure: impl Fn(&G, &S) -> Result<R, SearchError> + Sync,
+) -> Result<Vec<Vec<R>>, SearchError> {
     watch.progress(&Progress::Simulating(gaits.len() * settings.len()));
     let pairs = gaits
         .iter()
@@ -67,9 +53,9 @@ fn in_every<S: Sync, G: Sync, R: Send>(
         .with_max_len(1)
         .map(|(gait, setting)| {
             if watch.stop() {
-                return Err(ConfirmError::Stopped);
+                return Err(SearchError::Stopped);
             }
-            let measured = measure(gait, setting);
+            let measured = measure(gait, setting)?;
             watch.progress(&Progress::Done(1));
             Ok(measured)
         });
@@ -81,14 +67,14 @@ fn in_every<S: Sync, G: Sync, R: Send>(
 /// Cycles, each with its ceiling, m, in settings.
 ///
 /// # Errors
-/// [`ConfirmError::Stopped`].
+/// [`SearchError::Stopped`].
 pub fn cycles(
     cycles: &[(Cycle, f64)],
     settings: &[Setting],
     watch: &dyn Watch,
-) -> Result<Vec<Confirmed>, ConfirmError> {
+) -> Result<Vec<Confirmed>, SearchError> {
     let tried = in_every(cycles, settings, watch, |(cycle, _), setting| {
-        try_out(setting, cycle)
+        Ok(try_out(setting, cycle))
     })?;
     let confirmed = cycles.iter().zip(tried);
     let confirmed =
@@ -150,7 +136,7 @@ pub fn pulls(
     settings: &[PullSetting],
     objective: &Objective,
     watch: &dyn Watch,
-) -> Result<Confirmation, ConfirmError> {
+) -> Result<Confirmation, SearchError> {
     let tried = in_every(gaits, settings, watch, |gait, setting| {
         pull_row(gait, setting, objective)
     })?;
@@ -166,7 +152,7 @@ pub fn pulls(
         for tried in &tried {
             let rows = settings.iter().zip(tried);
             for (_, row) in rows.filter(|(setting, _)| regime(setting) == own) {
-                match row.clone()? {
+                match row.clone() {
                     Ok(row) => confirmation.rows.push(row),
                     // One reason per gait and regime says enough.
                     Err(it) if confirmation.refused.iter().any(|r| r.is_about(&it)) => {}
@@ -185,7 +171,7 @@ fn pull_row(
     gait: &Gait,
     setting: &PullSetting,
     objective: &Objective,
-) -> Result<Result<Row, Refusal>, ConfirmError> {
+) -> Result<Result<Row, Refusal>, SearchError> {
     let (world, duration) = (&setting.world, setting.duration);
     let robot = world.robot();
     let pull = match pull::run(world, gait, duration, Start::FirstPose, Keep::Rows) {
@@ -198,7 +184,7 @@ fn pull_row(
             }));
         }
     };
-    let value = |objective: &Objective| -> Result<f64, ConfirmError> {
+    let value = |objective: &Objective| -> Result<f64, SearchError> {
         let norm = objective.norm(robot)?;
         Ok(pull_trial::torque_part(robot, &pull, &norm)?)
     };

@@ -12,12 +12,11 @@
 use std::sync::Arc;
 
 use prone::cost::graded::{self, Norm, Per, Rule, Rules, Violations};
-use prone::cost::objective::NoMotor;
 use prone::cost::published::{PublishedObjective, VIOLATION_COST};
 use prone::gait::Gait;
-use prone::mapping::{ArmMode, Mapping, MappingError};
+use prone::mapping::{ArmMode, Mapping};
 use prone::robot::Robot;
-use prone::statics::{Stance, StaticTorques, SupportRule, SymmetryError};
+use prone::statics::{Stance, StaticTorques, SupportRule};
 use prone::torque_map::{TorqueMap, TorqueSource};
 use prone_optim::{Failure, Interval, Problem as _, Score};
 use prone_record::gait_search::{Broken, PullCost};
@@ -26,11 +25,12 @@ use prone_sim::pull::{self, Keep, Pull, PullError, Start};
 
 use super::candidates::{Candidates, Cost, Depth, PointError, Refusal};
 use super::chain_rules::{phase, samples};
-use super::published::{self, PublishedProblem, PublishedProblemError};
+use super::published::{self, PublishedProblem};
+use super::pull_error::PullCostError;
 use super::pull_form::PullForm;
 use super::pull_terms::{PullAim, PullTerms, Source, per};
 use super::pull_trial::{self, Begun, PullTrialError};
-use crate::torque_map::{NodeGrid, NodeGridError};
+use crate::torque_map::NodeGrid;
 
 /// Grid of the table that the statics fills for the published objective: the finer published one,
 /// with θ4 up to where the published gaits go (Bell 2015, table 2: 27.5°), degrees.
@@ -70,31 +70,6 @@ enum Torques {
     Map(Arc<TorqueMap>),
     Statics(Box<StaticTorques<Arc<Robot>>>),
     Simulated(Box<Begun>),
-}
-
-/// Why gaits have no cost so.
-#[derive(Debug, thiserror::Error)]
-pub enum PullCostError {
-    /// The published objective cannot be made.
-    #[error(transparent)]
-    Published(#[from] PublishedProblemError),
-    /// There is no grid to measure a table on, which constants exclude.
-    #[error(transparent)]
-    Grid(#[from] NodeGridError),
-    /// It looks torques up; a simulation of a whole gait has no table.
-    #[error(
-        "the objective `published` looks torques up in a table; its source is a file or `statics`"
-    )]
-    PublishedNeedsTable,
-    /// The robot lacks what the objective needs.
-    #[error(transparent)]
-    NoMotor(#[from] NoMotor),
-    /// The base gait's mapping does not fit the robot.
-    #[error(transparent)]
-    Mapping(#[from] MappingError),
-    /// The statics needs a mirrored robot.
-    #[error(transparent)]
-    Symmetry(#[from] SymmetryError),
 }
 
 impl PullCosts {
@@ -304,9 +279,7 @@ fn published_cost(objective: &PublishedObjective, gait: &Gait) -> Cost {
         return Cost {
             value: f64::NAN,
             violation: f64::MAX,
-            refusal: Some(Refusal::NotCubic {
-                gait: gait.name.clone(),
-            }),
+            refusal: Some(Refusal::NotCubic),
             ..Cost::default()
         };
     };

@@ -6,10 +6,10 @@ use prone::chain::ClosedChain;
 use prone::cost::graded;
 use prone::cost::objective::Objective;
 use prone::cost::published::{PublishedRules, WEIGHTS};
-use prone::gait::{Gait, PhaseDuration, PhaseDurationError};
+use prone::gait::{Gait, PhaseDuration};
 use prone::mapping::{ArmMode, Mapping, MappingError, MappingVariant};
 use prone::robot::Robot;
-use prone::torque_map::{self, ParseError, TorqueMap};
+use prone::torque_map::{self, TorqueMap};
 use prone_files::gait_file;
 use prone_record::experiment::{
     BodyShareOf, ClearanceChoice, LimitsChoice, PullCostChoice, PullObjective, PullRules,
@@ -21,6 +21,7 @@ use prone_sim::pull::{self, Keep, PullError, Start};
 use prone_sim::{LoadedRobot, World};
 
 use super::chain_rules::{self, ChainRules, Clearance, samples};
+use super::pull_error::{HEAVIEST, PullCostError};
 use super::pull_trial;
 
 pub use prone_record::experiment::Share;
@@ -73,63 +74,6 @@ pub struct PullTerms {
     pub body_share_of: Option<String>,
 }
 
-/// A gait that has no cost per metre.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum AdvanceError {
-    /// Its mapping does not fit the robot.
-    #[error(transparent)]
-    Mapping(#[from] MappingError),
-    /// The ends of its upper arm's curve do not carry the shoulder forward.
-    #[error(
-        "gait {gait} has no cost per metre: its shoulder advances {advance_mm:.1} mm in a pull"
-    )]
-    NoAdvance {
-        /// The gait's name.
-        gait: String,
-        /// Planned advance, mm.
-        advance_mm: f64,
-    },
-}
-
-/// Why costs cannot be made of what was asked for.
-#[derive(Debug, thiserror::Error)]
-pub enum PullTermsError {
-    /// A text cannot be read.
-    #[error(transparent)]
-    Text(#[from] TextError),
-    /// A torque map is malformed.
-    #[error("{file}: {source}")]
-    Map {
-        /// Its file.
-        file: String,
-        /// What is wrong.
-        source: ParseError,
-    },
-    /// Weights that weigh nothing, or too much.
-    #[error(
-        "weights are four numbers from 0 to {HEAVIEST}, not all 0 (ankle, knee, hip, shoulder), not {weights:?}"
-    )]
-    Weights {
-        /// What was asked for.
-        weights: [f64; 4],
-    },
-    /// A duration that no pull can have.
-    #[error(transparent)]
-    Duration(#[from] PhaseDurationError),
-    /// The base gait's mapping does not fit the robot.
-    #[error(transparent)]
-    Mapping(#[from] MappingError),
-    /// There is no cost per metre.
-    #[error(transparent)]
-    Advance(#[from] AdvanceError),
-    /// The gait whose share of the weight is the limit cannot be simulated.
-    #[error(transparent)]
-    BodyShare(#[from] PullError),
-}
-
-/// Largest weight: squares of torques times it are far from overflowing.
-pub const HEAVIEST: f64 = 1e6;
-
 /// How long a pull of the published objective lasts, s. It costs the same at any duration, and is
 /// commanded at this one where its stops are looked at.
 const PUBLISHED_DURATION_S: f64 = 3.0;
@@ -137,7 +81,7 @@ const PUBLISHED_DURATION_S: f64 = 3.0;
 impl PullTerms {
     /// Completes what was asked for in a world: by the base gait's heights and stops, and by the share
     /// of the weight of the gait that is the limit.
-    pub fn new(choice: &PullCostChoice, world: &World) -> Result<Self, PullTermsError> {
+    pub fn new(choice: &PullCostChoice, world: &World) -> Result<Self, PullCostError> {
         let base = choice.base.parse(gait_file::parse)?;
         let source = Source::new(&choice.source)?;
         let (objective, rules) = match choice.objective {
@@ -163,7 +107,7 @@ impl PullTerms {
             PullObjective::Torque { weights, rules } => {
                 let weighs = weights.iter().all(|it| (0.0..=HEAVIEST).contains(it));
                 if !weighs || weights.iter().all(|it| *it <= 0.0) {
-                    return Err(PullTermsError::Weights { weights });
+                    return Err(PullCostError::Weights { weights });
                 }
                 (Objective::Torque { weights }, rules)
             }
@@ -303,14 +247,14 @@ impl PullAim {
 }
 
 impl Source {
-    fn new(choice: &TorqueChoice) -> Result<Self, PullTermsError> {
+    fn new(choice: &TorqueChoice) -> Result<Self, PullCostError> {
         match choice {
             TorqueChoice::Statics => Ok(Self::Statics),
             TorqueChoice::Dynamics { .. } => Ok(Self::Dynamics),
             TorqueChoice::Map(text) => {
                 let map = torque_map::parse(text.checked().map_err(TextError::from)?);
                 Ok(Self::Map {
-                    map: Arc::new(map.map_err(|source| PullTermsError::Map {
+                    map: Arc::new(map.map_err(|source| PullCostError::Map {
                         file: text.file.clone(),
                         source,
                     })?),
@@ -344,13 +288,13 @@ fn advance(chain: &ClosedChain, gait: &Gait) -> f64 {
 const SHORTEST_ADVANCE: f64 = 1e-3;
 
 /// Whether a gait, and with it every one whose upper arm has the same ends, has a cost per metre.
-pub fn check_advance(robot: &Robot, gait: &Gait) -> Result<(), AdvanceError> {
+pub fn check_advance(robot: &Robot, gait: &Gait) -> Result<(), PullCostError> {
     let mapping = Mapping::new(robot, gait.mapping, gait.arm)?;
     let advance = advance(mapping.chain(), gait);
     if advance >= SHORTEST_ADVANCE {
         return Ok(());
     }
-    Err(AdvanceError::NoAdvance {
+    Err(PullCostError::NoAdvance {
         gait: gait.name.clone(),
         advance_mm: advance * 1e3,
     })

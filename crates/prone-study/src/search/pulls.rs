@@ -1,12 +1,12 @@
 //! Searching pulls: by any of the torque sources, confirmed at other durations and in both contact
 //! regimes.
 
-use prone::gait::{CheckedTrajectory, Gait, PhaseDuration, PhaseDurationError};
+use prone::gait::{CheckedTrajectory, Gait, PhaseDuration};
 use prone::regime::Regime;
 use prone_files::gait_file;
 use prone_optim::Candidate;
 use prone_record::curves_info::CurvesInfo;
-use prone_record::experiment::{Ends, GaitForm, PullSearchExperiment, TextError};
+use prone_record::experiment::{Ends, GaitForm, PullSearchExperiment};
 use prone_record::gait_search::{
     self, Compared, Confirmation, Outcome, PullCost, Refusal, RunOutcome, Verdict,
 };
@@ -17,14 +17,15 @@ use prone_record::search_plan::{PullPlan, SearchHead, SearchPlan};
 use prone_record::search_result::SearchResult;
 use prone_record::tables;
 use prone_report::figures::{self, ConfirmedRecord, Scores, SearchRecord};
-use prone_sim::{LoadedRobot, World, WorldError};
+use prone_sim::{LoadedRobot, World};
 
 use super::candidates::{Candidates as _, Depth, Refusal as NoCost};
 use super::chain_rules::INTERVALS;
 use super::confirm::{self, PullSetting};
-use super::pull_cost::{PullCostError, PullCosts, PullSearch};
-use super::pull_form::{FormError, PullForm};
-use super::pull_terms::{PullAim, PullTerms, PullTermsError, can_follow};
+use super::pull_cost::{PullCosts, PullSearch};
+use super::pull_error::PullCostError;
+use super::pull_form::PullForm;
+use super::pull_terms::{PullAim, PullTerms, can_follow};
 use super::run::{Job, SearchError, SearchRun, draw};
 use crate::pulls;
 use crate::watch::Watch;
@@ -42,51 +43,19 @@ pub struct PullRun {
     confirmation: Vec<PullSetting>,
 }
 
-/// Why pulls cannot be searched.
-#[derive(Debug, thiserror::Error)]
-pub enum PullSearchError {
-    /// The robot does not compile with its floor.
-    #[error(transparent)]
-    World(#[from] WorldError),
-    /// A gait cannot be read.
-    #[error(transparent)]
-    Text(#[from] TextError),
-    /// Costs cannot be made of what was asked for.
-    #[error(transparent)]
-    Terms(#[from] PullTermsError),
-    /// Pulls have no costs.
-    #[error(transparent)]
-    Costs(#[from] PullCostError),
-    /// The form cannot be searched.
-    #[error(transparent)]
-    Form(#[from] FormError),
-    /// The published problem is one of six coefficients.
-    #[error("the objective `published` has a cost for cubics with fixed ends only")]
-    PublishedForm,
-    /// The confirmation tells gaits apart by their names.
-    #[error("the found gait would be called {name:?}, like one that it is compared with")]
-    NameTaken {
-        /// The name.
-        name: String,
-    },
-    /// A duration that no pull can have.
-    #[error(transparent)]
-    Duration(#[from] PhaseDurationError),
-}
-
 impl PullRun {
     /// Prepares a search.
     pub fn new(
         experiment: &PullSearchExperiment,
         robot: &LoadedRobot,
         program: &Program,
-    ) -> Result<Self, PullSearchError> {
+    ) -> Result<Self, PullCostError> {
         let world = World::new(robot, Regime::TORQUE_STUDY)?;
         let terms = PullTerms::new(&experiment.terms, &world)?;
         let (form, ends) = (experiment.form, experiment.ends);
         let published = matches!(terms.aim, PullAim::Published(_));
         if published && (form != GaitForm::Cubic || ends == Ends::Free) {
-            return Err(PullSearchError::PublishedForm);
+            return Err(PullCostError::PublishedForm);
         }
         let name = experiment.name.clone();
         let mut compared = vec![terms.base.clone()];
@@ -100,7 +69,7 @@ impl PullRun {
             }
         }
         if taken {
-            return Err(PullSearchError::NameTaken { name });
+            return Err(PullCostError::NameTaken { name });
         }
         let durations = experiment.confirm_durations_s.iter();
         let durations = durations.map(|&seconds| PhaseDuration::new(seconds));
@@ -336,7 +305,7 @@ impl SearchRun for PullRun {
 /// What a gait costs, `None` where the objective has no cost for it.
 fn known_cost(searched: &PullSearch, gait: &Gait) -> Option<PullCost> {
     let cost = searched.cost(gait, Depth::Everything);
-    let no_cost = matches!(cost.refusal, Some(NoCost::NotCubic { .. }));
+    let no_cost = matches!(cost.refusal, Some(NoCost::NotCubic));
     (!no_cost).then(|| searched.costs.record(&cost))
 }
 

@@ -4,6 +4,8 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
+use prone::cost::CostError;
+use prone::cost::objective::NoMotor;
 use prone_optim::Threads;
 use prone_record::output::Artefacts;
 use prone_record::resumption::{ResumptionError, Snapshot};
@@ -16,7 +18,6 @@ use serde::Serialize;
 use serde_json::json;
 
 use super::candidates::{Candidates, PointError, Searched};
-use super::confirm::ConfirmError;
 use crate::watch::{Progress, Watch};
 
 /// One box of gaits to search.
@@ -68,9 +69,12 @@ pub enum SearchError {
     /// The checkpoint cannot be written.
     #[error(transparent)]
     Checkpoint(#[from] ResumptionError),
-    /// What was found has no figures of a confirmation.
+    /// The objective of a confirmation does not fit the robot.
     #[error(transparent)]
-    Confirm(ConfirmError),
+    NoMotor(#[from] NoMotor),
+    /// A simulated pull has no cost.
+    #[error(transparent)]
+    Cost(#[from] CostError),
     /// A table cannot be written.
     #[error(transparent)]
     Table(#[from] csv::Error),
@@ -80,15 +84,6 @@ pub enum SearchError {
     /// A figure cannot be drawn.
     #[error(transparent)]
     Figure(#[from] FigureError),
-}
-
-impl From<ConfirmError> for SearchError {
-    fn from(error: ConfirmError) -> Self {
-        match error {
-            ConfirmError::Stopped => Self::Stopped,
-            other => Self::Confirm(other),
-        }
-    }
 }
 
 /// A search that is done.

@@ -1,6 +1,6 @@
 //! Measuring every node of a map, on all threads, with a journal.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
 use rayon::prelude::*;
@@ -8,14 +8,15 @@ use serde::Serialize;
 
 use prone::chain::GaitParameters;
 use prone::robot::Robot;
-use prone::statics::{Stance, StaticTorques, SupportRule, SymmetryError};
+use prone::statics::{Stance, StaticTorques, SupportRule};
 use prone::torque_map::{
     self, ContactForces, GridError, JointTorques, Mask, RecordedMap, Row, TorqueGap, TorqueMap,
 };
 use prone_record::resumption::{Journal, Opening, ResumptionError, Work};
+use prone_sim::World;
 use prone_sim::settled::SettledTorques;
-use prone_sim::{World, WorldError};
 
+use super::BuildError;
 use super::entry::Entry;
 use super::job::REGIME;
 use super::{Job, KeptRow};
@@ -46,43 +47,6 @@ pub struct Summary {
     pub open: usize,
     /// Rows where the source had no torques.
     pub failed: usize,
-}
-
-/// Why there is no map.
-#[derive(Debug, thiserror::Error)]
-pub enum BuildError {
-    /// The statics needs a mirrored robot.
-    #[error(transparent)]
-    Symmetry(#[from] SymmetryError),
-    /// The engine refuses the robot's world.
-    #[error(transparent)]
-    World(#[from] WorldError),
-    /// The journal cannot be used.
-    #[error(transparent)]
-    Journal(#[from] ResumptionError),
-    /// The rows do not fill the grid.
-    #[error(transparent)]
-    Grid(#[from] GridError),
-    /// The user asked to stop; so many rows are in the journal, which is gone if there are none.
-    #[error("stopped with {kept} of {rows} rows done")]
-    Stopped {
-        /// Rows done.
-        kept: usize,
-        /// Rows of the map.
-        rows: usize,
-        /// The journal, where there is one.
-        journal: Option<PathBuf>,
-    },
-}
-
-impl BuildError {
-    /// Whether the work failed, and not what was asked for.
-    pub const fn is_work(&self) -> bool {
-        matches!(
-            self,
-            Self::Grid(_) | Self::Journal(ResumptionError::Write(_)) | Self::Stopped { .. }
-        )
-    }
 }
 
 /// Builds a map on the current rayon pool. Where it has a place, its journal is beside that, and is

@@ -4,15 +4,17 @@
 //! `table`. The statics lets any shape carry and squeezes nothing.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 use prone::mapping::{ArmMode, Mapping, MappingError, MappingVariant};
 use prone::regime::Regime;
 use prone::statics::{HalfRobot, SymmetryError};
-use prone::torque_map::COLUMNS;
-use prone_sim::LoadedRobot;
+use prone::torque_map::{COLUMNS, GridError};
+use prone_record::resumption::ResumptionError;
 use prone_sim::settled::STILL;
+use prone_sim::{LoadedRobot, WorldError};
 
-use super::NodeGrid;
+use super::{NodeGrid, NodeGridError};
 use prone_record::experiment::MapSource;
 use prone_record::program::Program;
 
@@ -32,15 +34,47 @@ pub struct Job<'r> {
     program: Program,
 }
 
-/// Why a map of a robot cannot be built.
+/// Why there is no map.
 #[derive(Debug, thiserror::Error)]
-pub enum JobError {
+pub enum BuildError {
+    /// There is no such grid.
+    #[error(transparent)]
+    Nodes(#[from] NodeGridError),
     /// The robot lacks what the mapping needs.
     #[error(transparent)]
     Mapping(#[from] MappingError),
     /// The statics needs a mirrored robot.
     #[error(transparent)]
     Symmetry(#[from] SymmetryError),
+    /// The engine refuses the robot's world.
+    #[error(transparent)]
+    World(#[from] WorldError),
+    /// The journal cannot be used.
+    #[error(transparent)]
+    Journal(#[from] ResumptionError),
+    /// The rows do not fill the grid.
+    #[error(transparent)]
+    Grid(#[from] GridError),
+    /// The user asked to stop; so many rows are in the journal, which is gone if there are none.
+    #[error("stopped with {kept} of {rows} rows done")]
+    Stopped {
+        /// Rows done.
+        kept: usize,
+        /// Rows of the map.
+        rows: usize,
+        /// The journal, where there is one.
+        journal: Option<PathBuf>,
+    },
+}
+
+impl BuildError {
+    /// Whether the work failed, and not what was asked for.
+    pub const fn is_work(&self) -> bool {
+        matches!(
+            self,
+            Self::Grid(_) | Self::Journal(ResumptionError::Write(_)) | Self::Stopped { .. }
+        )
+    }
 }
 
 /// What a source does, with its number where it has one.
@@ -64,13 +98,13 @@ impl<'r> Job<'r> {
     /// A map of a robot, to be built by a program.
     ///
     /// # Errors
-    /// [`JobError`], before anything is measured.
+    /// [`BuildError`], before anything is measured.
     pub fn new(
         robot: &'r LoadedRobot,
         source: MapSource,
         grid: NodeGrid,
         program: &Program,
-    ) -> Result<Self, JobError> {
+    ) -> Result<Self, BuildError> {
         let mapping = Mapping::new(robot.robot(), VARIANT, ARM)?;
         if source == MapSource::Statics {
             HalfRobot::from_robot(robot.robot())?;

@@ -1,0 +1,111 @@
+//! Why pulls have no costs, or cannot be searched.
+
+use prone::cost::objective::NoMotor;
+use prone::gait::PhaseDurationError;
+use prone::mapping::MappingError;
+use prone::statics::SymmetryError;
+use prone::torque_map::ParseError;
+use prone_record::experiment::TextError;
+use prone_sim::WorldError;
+use prone_sim::pull::PullError;
+
+use super::published::PublishedProblemError;
+use super::pull_form::FormError;
+use crate::torque_map::NodeGridError;
+
+/// Largest weight of a squared torque: such a product is far from overflowing.
+pub const HEAVIEST: f64 = 1e6;
+
+/// Why pulls have no costs, or cannot be searched.
+#[derive(Debug, thiserror::Error)]
+pub enum PullCostError {
+    /// A gait cannot be read.
+    #[error(transparent)]
+    Text(#[from] TextError),
+    /// A torque map is malformed.
+    #[error("{file}: {source}")]
+    Map {
+        /// Its file.
+        file: String,
+        /// What is wrong.
+        source: ParseError,
+    },
+    /// The robot does not compile with its floor.
+    #[error(transparent)]
+    World(#[from] WorldError),
+    /// Weights that weigh nothing, or too much.
+    #[error(
+        "weights are four numbers from 0 to {HEAVIEST}, not all 0 (ankle, knee, hip, shoulder), not {weights:?}"
+    )]
+    Weights {
+        /// What was asked for.
+        weights: [f64; 4],
+    },
+    /// A duration that no pull can have.
+    #[error(transparent)]
+    Duration(#[from] PhaseDurationError),
+    /// A gait's mapping does not fit the robot.
+    #[error(transparent)]
+    Mapping(#[from] MappingError),
+    /// The ends of the curve of a gait's upper arm do not carry the shoulder forward.
+    #[error(
+        "gait {gait} has no cost per metre: its shoulder advances {advance_mm:.1} mm in a pull"
+    )]
+    NoAdvance {
+        /// The gait's name.
+        gait: String,
+        /// Planned advance, mm.
+        advance_mm: f64,
+    },
+    /// The gait whose share of the weight is the limit cannot be simulated.
+    #[error(transparent)]
+    BodyShare(#[from] PullError),
+    /// The published objective cannot be made.
+    #[error(transparent)]
+    Published(#[from] PublishedProblemError),
+    /// There is no grid to measure a table on, which constants exclude.
+    #[error(transparent)]
+    Grid(#[from] NodeGridError),
+    /// The published objective looks torques up; a simulation of a whole gait has no table.
+    #[error(
+        "the objective `published` looks torques up in a table; its source is a file or `statics`"
+    )]
+    PublishedNeedsTable,
+    /// The published objective knows polynomials only.
+    #[error(
+        "gait {gait} has a curve that is no polynomial of degree 3 or less, and the objective `published` has a cost for nothing else"
+    )]
+    NotCubic {
+        /// The gait's name.
+        gait: String,
+    },
+    /// The robot lacks what the objective needs.
+    #[error(transparent)]
+    NoMotor(#[from] NoMotor),
+    /// The statics needs a mirrored robot.
+    #[error(transparent)]
+    Symmetry(#[from] SymmetryError),
+    /// A pull and the base of its costs are of two kinds.
+    #[error(
+        "gait {} has mapping {} and arms {}, but the base gait {} has {} and {}",
+        gait[0], gait[1], gait[2], base[0], base[1], base[2]
+    )]
+    OtherKind {
+        /// Name, mapping and arms of the pull.
+        gait: [String; 3],
+        /// Those of the base gait.
+        base: [String; 3],
+    },
+    /// The form cannot be searched.
+    #[error(transparent)]
+    Form(#[from] FormError),
+    /// The published problem is one of six coefficients.
+    #[error("the objective `published` has a cost for cubics with fixed ends only")]
+    PublishedForm,
+    /// The confirmation tells gaits apart by their names.
+    #[error("the found gait would be called {name:?}, like one that it is compared with")]
+    NameTaken {
+        /// The name.
+        name: String,
+    },
+}
