@@ -9,7 +9,7 @@ mod imu;
 mod kinematics;
 mod level;
 mod limbs;
-mod mirror;
+pub(crate) mod mirror;
 mod shape;
 #[cfg(test)]
 pub(crate) mod testing;
@@ -297,6 +297,12 @@ impl JointAngles {
         )
     }
 
+    /// The nearest angles within stops, one for each joint, rad.
+    #[must_use]
+    pub(crate) fn within(&self, stops: &[Range]) -> Self {
+        self.map(|joint, angle| stops[joint.0].clamp(angle))
+    }
+
     /// The angles and those of another posture, joint by joint, rad.
     ///
     /// # Panics
@@ -353,6 +359,11 @@ impl Range {
         }
     }
 
+    /// The nearest angle inside.
+    pub const fn clamp(&self, angle: f64) -> f64 {
+        angle.clamp(self.lower, self.upper)
+    }
+
     /// Whether `angle` lies inside; NaN does not.
     pub fn contains(&self, angle: f64) -> bool {
         (self.lower..=self.upper).contains(&angle)
@@ -388,6 +399,14 @@ impl Robot {
         }
         stops
     }
+
+    /// Poses of the bodies in the root with all joints at zero.
+    pub(crate) fn zero_pose(&self) -> BodyPoses<Root> {
+        self.forward_kinematics(
+            Transform::translation(DVec3::ZERO),
+            &JointAngles::zero(self),
+        )
+    }
 }
 
 impl ChainLayout {
@@ -414,16 +433,6 @@ impl SideLayout {
             self.forearm[0],
             self.forearm[1],
         ]
-    }
-}
-
-impl Robot {
-    /// Pose of a body in the root with all joints at zero.
-    pub(crate) fn zero_pose(&self) -> BodyPoses<Root> {
-        self.forward_kinematics(
-            Transform::translation(DVec3::ZERO),
-            &JointAngles::zero(self),
-        )
     }
 }
 

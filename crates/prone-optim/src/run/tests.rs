@@ -5,7 +5,8 @@ use proptest::prelude::*;
 use crate::{
     Answer, CovarianceMatrix, CovarianceMatrixOptions, DifferentialEvolution,
     DifferentialEvolutionOptions, Failure, Generation, Genetic, GeneticOptions, History, Interval,
-    Observer, Problem, Query, QueryId, Run, Score, Scorer, Solver, StopReason, Termination, Threads,
+    Observer, Problem, Query, QueryId, Run, Score, Scorer, Solver, StopReason, Termination,
+    Threads,
 };
 
 /// Ends the run after four generations.

@@ -1,6 +1,6 @@
 //! A crawl as it was asked for, loaded and checked: robot, world, cycles, pilot.
 
-use prone::crawl::{CrawlerError, HoldHeading, HoldLine, Pilot, SlopeAware, Straight};
+use prone::crawl::{CrawlerError, Pilot, SlopeAware, Straight};
 use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale, TimeScaleError};
 use prone::regime::{Regime, Servo};
 use prone::robot::{JointAngles, Robot};
@@ -321,10 +321,8 @@ impl CrawlSetup {
         let control = &self.world.robot().control;
         let steering: Box<dyn Pilot> = match self.steering {
             Steering::Straight { turn } => Box::new(Straight { turn }),
-            Steering::Hold { limit } => Box::new(HoldLine {
-                hold: HeadingHold::new(control.steering, limit),
-            }),
-            Steering::To(to) => Box::new(HoldHeading { to }),
+            Steering::Hold { limit } => Box::new(HeadingHold::new(control.steering, limit)),
+            Steering::To(to) => Box::new(to),
         };
         if self.uphill.is_none() {
             return steering;
@@ -339,10 +337,7 @@ impl CrawlRunError {
         matches!(
             self,
             Self::Cycle(_)
-                | Self::Crawl(
-                    CrawlError::Crawler(CrawlerError::Cycle { .. } | CrawlerError::Mapping { .. })
-                        | CrawlError::Imu(_)
-                )
+                | Self::Crawl(CrawlError::Crawler(CrawlerError::Cycle { .. }) | CrawlError::Imu(_))
         )
     }
 }
@@ -443,14 +438,18 @@ fn regime(experiment: &CrawlExperiment, robot: &Robot) -> Result<Regime, CrawlSe
         ServoChoice::Soft => Regime::LOCOMOTION,
         ServoChoice::Stiff => {
             let gain = robot.control.stiff_servo_gain;
-            Regime::LOCOMOTION.with_servo(Servo::Uniform(gain))
+            Regime {
+                servo: Servo::Uniform(gain),
+                ..Regime::LOCOMOTION
+            }
         }
     };
     match experiment.time_step_s {
         None => Ok(regime),
-        Some(seconds) if (TIME_STEPS.0..=TIME_STEPS.1).contains(&seconds) => {
-            Ok(regime.with_time_step(seconds))
-        }
+        Some(seconds) if (TIME_STEPS.0..=TIME_STEPS.1).contains(&seconds) => Ok(Regime {
+            time_step: seconds,
+            ..regime
+        }),
         Some(seconds) => Err(CrawlSetupError::TimeStep { seconds }),
     }
 }

@@ -2,12 +2,16 @@
 
 use std::sync::Arc;
 
-use crate::gait::cycle::{CycleError, Easing, RecoveryPath};
+use crate::gait::cycle::{CheckedCycle, Easing, RecoveryPath};
 use crate::port::{JointCommand, Knot, Segment};
-use crate::robot::JointAngles;
+use crate::robot::{JointAngles, Range, Robot};
 
+use super::error::CrawlerError;
 use super::pilot::Stage;
-use super::planned::Planned;
+use super::program::Begin;
+
+/// Shortest way to the first posture, s: nothing begins with a jerk.
+const SHORTEST_WAY: f64 = 0.5;
 
 /// Kind of a phase of a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,30 +34,47 @@ pub(super) enum Course {
     /// A posture that is held.
     Rest { posture: JointAngles, seconds: f64 },
     /// The closed chain of a cycle.
-    Pull(Arc<Planned>),
+    Pull(Arc<CheckedCycle>),
     /// The waypoints of a cycle.
     Recovery { path: RecoveryPath, seconds: f64 },
 }
 
 impl PhaseKind {
     /// The phases of a cycle, in order.
-    pub(super) const fn of(_: &Planned) -> &'static [Self] {
-        &[Self::ClosedChain, Self::Waypoints]
-    }
-
-    /// The phase at whose end the pilot decides: the way back leads to what comes next.
-    pub(super) fn deciding(phases: &[Self]) -> usize {
-        let pull = phases.iter().position(|phase| *phase == Self::ClosedChain);
-        pull.unwrap_or_else(|| phases.len().saturating_sub(1))
-    }
+    pub(super) const ALL: [Self; 2] = [Self::ClosedChain, Self::Waypoints];
 }
 
 impl Course {
-    /// The waypoints that lead from the pull of `from` to the extension of `next`.
-    pub(super) fn recovery(from: &Planned, next: &Planned) -> Result<Self, CycleError> {
-        Ok(Self::Recovery {
-            path: next.checked.recovery_after(&from.checked)?,
-            seconds: next.checked.recovery_seconds(),
+    /// The way to a posture from where the joints are measured, none of which may be so far beyond
+    /// its stop that it cannot be there: as long as all need together where none passes a share of
+    /// its speed limit.
+    pub(super) fn way(
+        robot: &Robot,
+        stops: &[Range],
+        measured: &JointAngles,
+        to: &JointAngles,
+        speed: f64,
+    ) -> Result<Self, CrawlerError> {
+        let mut joints = robot.joints.iter().zip(stops).zip(measured.as_slice());
+        let beyond =
+            joints.find(|((_, stop), angle)| stop.excess(**angle).abs() > Begin::BEYOND_STOP);
+        if let Some(((joint, stop), &angle)) = beyond {
+            return Err(CrawlerError::BeyondStop {
+                joint: joint.name.clone(),
+                angle,
+                lower: stop.lower,
+                upper: stop.upper,
+                most: Begin::BEYOND_STOP,
+            });
+        }
+        let joints = robot.joints.iter().zip(measured.pairs(to));
+        let times = joints.map(|(joint, (from, to))| {
+            Easing::Smoothstep.peak_speed() * (to - from).abs() / (speed * joint.speed_limit)
+        });
+        Ok(Self::Way {
+            from: measured.within(stops),
+            to: to.clone(),
+            seconds: times.fold(SHORTEST_WAY, f64::max),
         })
     }
 
@@ -63,7 +84,7 @@ impl Course {
             Self::Way { seconds, .. }
             | Self::Rest { seconds, .. }
             | Self::Recovery { seconds, .. } => *seconds,
-            Self::Pull(planned) => planned.checked.pull().duration().seconds(),
+            Self::Pull(cycle) => cycle.pull().duration().seconds(),
         }
     }
 
@@ -75,7 +96,7 @@ impl Course {
                 from.towards(to, Easing::Smoothstep.share(time / seconds))
             }
             Self::Rest { posture, .. } => posture.clone(),
-            Self::Pull(planned) => planned.checked.pull_at(time),
+            Self::Pull(cycle) => cycle.pull_at(time),
             Self::Recovery { path, .. } => path.at(time),
         }
     }
@@ -83,11 +104,11 @@ impl Course {
     /// What it is for at that time.
     pub(super) fn stage(&self, time: f64) -> Stage {
         match self {
-            Self::Pull(planned) => {
+            Self::Pull(cycle) => {
                 let s = time.min(self.seconds()) / self.seconds();
                 Stage::Pull {
                     s,
-                    planned_pitch: planned.root_pitch(s),
+                    planned_pitch: cycle.pull().nearest(s).root_pitch,
                 }
             }
             Self::Way { .. } | Self::Rest { .. } | Self::Recovery { .. } => Stage::Recovery,
