@@ -23,6 +23,7 @@ mod pilot;
 mod program;
 mod slope;
 mod timing;
+mod way;
 
 pub use course::PhaseKind;
 pub use crawler::Crawler;

@@ -102,12 +102,7 @@ impl Regime {
         name: "table",
         friction: 1.0,
         impratio: 0.1,
-        stops: Stops::Study,
-        effort: Effort::Uniform(30.0),
-        servo: Servo::Robot,
-        servo_law: Some(RECORDINGS),
-        servo_speed: None,
-        time_step: TIME_STEP,
+        ..Self::TORQUE_STUDY
     };
 }
 

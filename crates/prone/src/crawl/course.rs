@@ -4,14 +4,9 @@ use std::sync::Arc;
 
 use crate::gait::cycle::{CheckedCycle, Easing, RecoveryPath};
 use crate::port::{JointCommand, Knot, Segment};
-use crate::robot::{JointAngles, Range, Robot};
+use crate::robot::JointAngles;
 
-use super::error::CrawlerError;
 use super::pilot::Stage;
-use super::program::Begin;
-
-/// Shortest way to the first posture, s: nothing begins with a jerk.
-const SHORTEST_WAY: f64 = 0.5;
 
 /// Kind of a phase of a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,39 +40,6 @@ impl PhaseKind {
 }
 
 impl Course {
-    /// The way to a posture from where the joints are measured, none of which may be so far beyond
-    /// its stop that it cannot be there: as long as all need together where none passes a share of
-    /// its speed limit.
-    pub(super) fn way(
-        robot: &Robot,
-        stops: &[Range],
-        measured: &JointAngles,
-        to: &JointAngles,
-        speed: f64,
-    ) -> Result<Self, CrawlerError> {
-        let mut joints = robot.joints.iter().zip(stops).zip(measured.as_slice());
-        let beyond =
-            joints.find(|((_, stop), angle)| stop.excess(**angle).abs() > Begin::BEYOND_STOP);
-        if let Some(((joint, stop), &angle)) = beyond {
-            return Err(CrawlerError::BeyondStop {
-                joint: joint.name.clone(),
-                angle,
-                lower: stop.lower,
-                upper: stop.upper,
-                most: Begin::BEYOND_STOP,
-            });
-        }
-        let joints = robot.joints.iter().zip(measured.pairs(to));
-        let times = joints.map(|(joint, (from, to))| {
-            Easing::Smoothstep.peak_speed() * (to - from).abs() / (speed * joint.speed_limit)
-        });
-        Ok(Self::Way {
-            from: measured.within(stops),
-            to: to.clone(),
-            seconds: times.fold(SHORTEST_WAY, f64::max),
-        })
-    }
-
     /// How long it lasts, s.
     pub(super) fn seconds(&self) -> f64 {
         match self {

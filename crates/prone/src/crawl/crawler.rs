@@ -13,6 +13,7 @@ use super::felt::Ticks;
 use super::pilot::{Decision, Moment, Pilot, PilotError, Stage};
 use super::program::{Begin, Ended, Event, Halt, Program};
 use super::timing::{Delivery, Timing};
+use super::way;
 
 /// Turns what is felt into what is commanded, one tick at a time.
 #[derive(Debug, Clone)]
@@ -247,7 +248,7 @@ impl<P: Pilot> Crawler<P> {
             Begin::Lying { speed, .. } => speed,
         };
         let (measured, to) = (&senses.angles, self.cycle.extension());
-        let way = Course::way(&self.robot, &self.stops, measured, to, speed)?;
+        let way = way::plan(&self.robot, &self.stops, measured, to, speed)?;
         match self.program.timing.delivery() {
             Delivery::SetPoints { .. } => self.follow(Part::Way, way, now),
             // A path begins where the joints were last sent, which nobody knows here.
