@@ -312,7 +312,7 @@ fn settled_torques_do_not_depend_on_how_the_robot_was_laid_down() {
         let from_chain = source.settled(at).unwrap();
         let placement = prone_sim::Placement {
             posture: statics.command(at).unwrap(),
-            pitch: statics.rest(at).unwrap().pitch(),
+            pitch: virtual_work::pitch(&statics.rest(at).unwrap()),
         };
         let from_rest = prone_sim::settled::settle(&world, &placement).unwrap();
         for joint in robot.chain.right.pitch_joints() {
