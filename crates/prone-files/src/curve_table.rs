@@ -109,8 +109,10 @@ impl Form {
 pub(crate) fn write(curve: &Curve) -> String {
     // `{:?}` is the shortest text that reads as the same number.
     match curve.form() {
-        CurveForm::Polynomial([value]) => format!("constant_rad = {value:?}"),
-        CurveForm::Polynomial(coefficients) => format!("polynomial_rad = {coefficients:?}"),
+        CurveForm::Polynomial(coefficients) => match coefficients[..] {
+            [value] => format!("constant_rad = {value:?}"),
+            _ => format!("polynomial_rad = {coefficients:?}"),
+        },
         CurveForm::BSpline { degree, control } => {
             format!("b_spline_rad = {{ degree = {degree}, control = {control:?} }}")
         }

@@ -8,8 +8,8 @@ use std::sync::Arc;
 use glam::DVec3;
 use prone::attitude::ImuReading;
 use prone::crawl::{
-    Begin, Crawler, CrawlerError, Delivery, DriveError, Ended, Event, Halt, HoldLine, Pilot,
-    PilotError, Program, SlopeAware, Straight, Timing, Watch, drive,
+    Begin, Crawler, CrawlerError, Delivery, DriveError, Ended, Event, Halt, Pilot, PilotError,
+    Program, SlopeAware, Straight, Timing, Watch, drive,
 };
 use prone::gait::cycle::TimeScale;
 use prone::port::{
@@ -251,10 +251,8 @@ fn crawl<P: Pilot>(
     (port, crawler, driven)
 }
 
-fn hold_line() -> HoldLine {
-    HoldLine {
-        hold: HeadingHold::new(nao().control.steering, 0.2),
-    }
+fn hold_line() -> HeadingHold {
+    HeadingHold::new(nao().control.steering, 0.2)
 }
 
 #[test]
@@ -399,7 +397,7 @@ fn a_crawl_is_halted_and_followed_by_another() {
             Halt::AtOnce => assert!((end - 5.0).abs() < 1e-9, "{end} s"),
             Halt::AfterCycle => {
                 assert!(end > 5.0, "{end} s");
-                let extension = crawler.first_pose().posture;
+                let extension = crawler.first_pose().joints.clone();
                 assert_eq!(crawler.commanded(), Some(&extension));
             }
         }

@@ -25,7 +25,7 @@ use std::cell::RefCell;
 use cmaes::{CMAESOptions, DVector};
 use serde::{Deserialize, Serialize};
 
-use crate::{Evaluator, Interval, NoScores, Random, Score, Solver};
+use crate::{Candidate, Evaluator, Interval, NoScores, Random, Solver};
 
 /// Parameters of the searches.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -121,14 +121,15 @@ impl Solver for CovarianceMatrix {
             (search, shares)
         };
         let place = |(interval, &share): (&Interval, &f64)| interval.at(fold(share));
-        let points: Vec<Vec<f64>> = shares
+        let points = shares
             .iter()
-            .map(|shares| bounds.iter().zip(shares).map(place).collect())
-            .collect();
-        let scores = evaluator.evaluate(&points)?;
+            .map(|shares| bounds.iter().zip(shares).map(place).collect());
+        let scored = evaluator.evaluate(points.collect())?;
         let weight = self.options.violation_weight;
-        let penalised = |score: &Score| (weight * score.violation() + score.value()).min(f64::MAX);
-        search.told.extend(scores.iter().map(penalised));
+        let penalised = |Candidate { score, .. }: &Candidate| {
+            (weight * score.violation() + score.value()).min(f64::MAX)
+        };
+        search.told.extend(scored.iter().map(penalised));
         self.search = Some(search);
         Ok(())
     }

@@ -81,7 +81,7 @@ pub struct DifferentialEvolution {
     earlier_best: Option<Score>,
 }
 
-/// Where F and CR are drawn about.
+/// Where F and CR are drawn about, or what was drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct Memory {
     scale: f64,
@@ -92,13 +92,6 @@ const FRESH: Memory = Memory {
     scale: 0.5,
     crossover: 0.5,
 };
-
-/// A child before it is scored.
-struct Child {
-    point: Vec<f64>,
-    scale: f64,
-    crossover: f64,
-}
 
 impl DifferentialEvolution {
     /// A search that has not begun.
@@ -124,19 +117,9 @@ impl DifferentialEvolution {
                 *earlier = best.score;
             }
         }
-        let points: Vec<Vec<f64>> = (0..self.options.population.max(4))
-            .map(|_| {
-                bounds
-                    .iter()
-                    .map(|interval| interval.at(self.random.uniform()))
-                    .collect()
-            })
-            .collect();
-        let scores = evaluator.evaluate(&points)?;
-        let scored = points.into_iter().zip(scores);
-        self.members = scored
-            .map(|(point, score)| Candidate { point, score })
-            .collect();
+        let population = 0..self.options.population.max(4);
+        let points = population.map(|_| self.random.point(bounds)).collect();
+        self.members = evaluator.evaluate(points)?;
         self.sort();
         self.archive.clear();
         self.memory = [FRESH; MEMORIES];
@@ -149,12 +132,13 @@ impl DifferentialEvolution {
         self.members.sort_by(|a, b| a.score.order(&b.score));
     }
 
+    /// Equations (1) to (3): a point, and the F and CR that it was made with.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "a share of the population is below its number"
     )]
-    fn child(&mut self, parent: usize, bounds: &[Interval]) -> Child {
+    fn child(&mut self, parent: usize, bounds: &[Interval]) -> (Vec<f64>, Memory) {
         let memory = self.memory[self.random.below(MEMORIES)];
         let scale = loop {
             let scale = self.random.cauchy(memory.scale, SPREAD);
@@ -193,11 +177,7 @@ impl DifferentialEvolution {
                 }
             })
             .collect();
-        Child {
-            point,
-            scale,
-            crossover,
-        }
+        (point, Memory { scale, crossover })
     }
 
     /// A number below `count` that is none of `taken`.
@@ -210,14 +190,14 @@ impl DifferentialEvolution {
         }
     }
 
-    fn remember(&mut self, successes: &[(f64, f64)]) {
+    fn remember(&mut self, successes: &[Memory]) {
         if successes.is_empty() {
             return;
         }
-        let sum = |of: fn(&(f64, f64)) -> f64| successes.iter().map(of).sum::<f64>();
+        let sum = |of: fn(&Memory) -> f64| successes.iter().map(of).sum::<f64>();
         self.memory[self.oldest] = Memory {
-            scale: sum(|(scale, _)| scale * scale) / sum(|(scale, _)| *scale),
-            crossover: sum(|(_, crossover)| *crossover) / successes.len() as f64,
+            scale: sum(|drawn| drawn.scale * drawn.scale) / sum(|drawn| drawn.scale),
+            crossover: sum(|drawn| drawn.crossover) / successes.len() as f64,
         };
         self.oldest = (self.oldest + 1) % MEMORIES;
     }
@@ -261,24 +241,22 @@ impl Solver for DifferentialEvolution {
         if self.members.is_empty() || self.stands_still(bounds) {
             return self.start(evaluator);
         }
-        let children: Vec<Child> = (0..self.members.len())
+        let (points, drawn): (_, Vec<Memory>) = (0..self.members.len())
             .map(|parent| self.child(parent, bounds))
-            .collect();
-        let points: Vec<Vec<f64>> = children.iter().map(|child| child.point.clone()).collect();
-        let scores = evaluator.evaluate(&points)?;
+            .unzip();
+        let children = evaluator.evaluate(points)?;
 
         let before = self.members[0].score;
         let mut successes = Vec::new();
-        for ((member, child), score) in self.members.iter_mut().zip(children).zip(scores) {
-            if member.score.beats(&score) {
+        for ((member, child), drawn) in self.members.iter_mut().zip(children).zip(drawn) {
+            if member.score.beats(&child.score) {
                 continue;
             }
-            let point = std::mem::replace(&mut member.point, child.point);
-            if score.beats(&member.score) {
-                successes.push((child.scale, child.crossover));
-                self.archive.push(point);
+            let parent = std::mem::replace(member, child);
+            if member.score.beats(&parent.score) {
+                successes.push(drawn);
+                self.archive.push(parent.point);
             }
-            member.score = score;
         }
         while self.archive.len() > self.members.len() {
             let forgotten = self.random.below(self.archive.len());

@@ -2,7 +2,7 @@
 //! results of a [`Scorer`] into the order of the points.
 
 use crate::scorer::in_order;
-use crate::{Candidate, Interval, Query, QueryId, Score, Scorer};
+use crate::{Candidate, Interval, Query, QueryId, Scorer};
 
 /// Why a generation has no scores; the solver's state is then discarded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -19,7 +19,7 @@ pub enum NoScores {
 pub struct Evaluator<'p> {
     scorer: &'p dyn Scorer,
     allowance: u64,
-    tally: Tally,
+    pub(crate) tally: Tally,
 }
 
 /// What a generation's evaluations came to.
@@ -47,39 +47,33 @@ impl<'p> Evaluator<'p> {
         self.scorer.bounds()
     }
 
-    /// Evaluations left.
-    pub const fn remaining(&self) -> u64 {
-        self.allowance - self.tally.evaluations
-    }
-
     /// Scores points, in order.
     ///
     /// # Errors
     /// [`NoScores`] where fewer evaluations are left than points, and none is scored then, or where
     /// the scorer was stopped.
-    pub fn evaluate(&mut self, points: &[Vec<f64>]) -> Result<Vec<Score>, NoScores> {
-        if points.len() as u64 > self.remaining() {
+    pub fn evaluate(&mut self, points: Vec<Vec<f64>>) -> Result<Vec<Candidate>, NoScores> {
+        if points.len() as u64 > self.allowance - self.tally.evaluations {
             return Err(NoScores::BudgetSpent);
         }
-        let query = |(id, point): (u64, &Vec<f64>)| Query {
+        let query = |(id, point)| Query {
             id: QueryId(id),
-            point: point.clone(),
+            point,
         };
         let batch: Vec<Query> = (0..).zip(points).map(query).collect();
         let scores = in_order(&batch, self.scorer.score(&batch)).ok_or(NoScores::CutShort)?;
-        for (point, &score) in points.iter().zip(&scores) {
-            self.tally.count(point, score);
-        }
-        Ok(scores)
-    }
-
-    pub(crate) fn into_tally(self) -> Tally {
-        self.tally
+        let points = batch.into_iter().map(|query| query.point);
+        let scored = points.zip(scores);
+        let candidates = scored.map(|(point, score)| Candidate { point, score });
+        Ok(candidates
+            .inspect(|candidate| self.tally.count(candidate))
+            .collect())
     }
 }
 
 impl Tally {
-    fn count(&mut self, point: &[f64], score: Score) {
+    fn count(&mut self, candidate: &Candidate) {
+        let score = candidate.score;
         self.evaluations += 1;
         self.violation += score.violation();
         self.value += score.value();
@@ -92,10 +86,7 @@ impl Tally {
             .as_ref()
             .is_none_or(|best| score.beats(&best.score))
         {
-            self.best = Some(Candidate {
-                point: point.to_vec(),
-                score,
-            });
+            self.best = Some(candidate.clone());
         }
     }
 }

@@ -74,17 +74,6 @@ impl Genetic {
         }
     }
 
-    fn first(&mut self, bounds: &[Interval]) -> Vec<Vec<f64>> {
-        (0..self.options.population.max(2))
-            .map(|_| {
-                bounds
-                    .iter()
-                    .map(|interval| interval.at(self.random.uniform()))
-                    .collect()
-            })
-            .collect()
-    }
-
     /// `count` parents by equation (1): one line of equal steps through the expectations laid
     /// end to end, from one random start; then shuffled.
     fn parents(&mut self, count: usize) -> Vec<usize> {
@@ -128,13 +117,17 @@ impl Genetic {
             .collect()
     }
 
+    /// The next generation's points but for the elite, which alone is kept of this one.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "a share of the population is below its number"
     )]
-    fn children(&mut self, elite: usize, bounds: &[Interval]) -> Vec<Vec<f64>> {
-        let children = self.population.len() - elite;
+    fn children(&mut self, bounds: &[Interval]) -> Vec<Vec<f64>> {
+        let count = self.population.len();
+        let elite = (self.options.elite_share.clamp(0.0, 1.0) * count as f64).ceil() as usize;
+        let elite = elite.min(count - 1);
+        let children = count - elite;
         let crossed =
             (self.options.crossover_share.clamp(0.0, 1.0) * children as f64).round() as usize;
         let parents = self.parents(crossed + children);
@@ -144,35 +137,24 @@ impl Genetic {
             .map(|couple| self.cross(couple[0], couple[1]))
             .collect();
         points.extend(mutants.iter().map(|&parent| self.mutate(parent, bounds)));
+        self.population.truncate(elite);
         points
     }
 }
 
 impl Solver for Genetic {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a share of the population is below its number"
-    )]
     fn advance(&mut self, evaluator: &mut Evaluator<'_>) -> Result<(), NoScores> {
         let bounds = evaluator.bounds();
         let points = if self.population.is_empty() {
-            self.first(bounds)
+            let population = 0..self.options.population.max(2);
+            population.map(|_| self.random.point(bounds)).collect()
         } else {
             self.generation += 1;
             let share = f64::from(self.generation) / f64::from(self.options.generations.max(1));
             self.deviation *= (1.0 - self.options.shrink * share).max(0.0);
-            let count = self.population.len();
-            let elite = (self.options.elite_share.clamp(0.0, 1.0) * count as f64).ceil() as usize;
-            let elite = elite.min(count - 1);
-            let points = self.children(elite, bounds);
-            self.population.truncate(elite);
-            points
+            self.children(bounds)
         };
-        let scores = evaluator.evaluate(&points)?;
-        let scored = points.into_iter().zip(scores);
-        self.population
-            .extend(scored.map(|(point, score)| Candidate { point, score }));
+        self.population.extend(evaluator.evaluate(points)?);
         self.population.sort_by(|a, b| a.score.order(&b.score));
         Ok(())
     }

@@ -31,7 +31,7 @@ pub use covariance_matrix::{CovarianceMatrix, CovarianceMatrixOptions};
 pub use differential_evolution::{DifferentialEvolution, DifferentialEvolutionOptions};
 pub use evaluator::{Evaluator, NoScores};
 pub use genetic::{Genetic, GeneticOptions};
-pub use observer::{Generation, History, Observer, TimeBudget};
+pub use observer::{Generation, History, Observer};
 pub use problem::{Candidate, Failure, Interval, IntervalError, Problem, Score};
 pub use random::Random;
 pub use run::{Run, StopReason, Termination};

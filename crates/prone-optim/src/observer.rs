@@ -1,7 +1,6 @@
 //! Who hears of each generation, and may end the run.
 
 use std::ops::ControlFlow;
-use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
@@ -43,20 +42,6 @@ impl Observer for () {
     }
 }
 
-/// Both hear; either may end the run.
-impl<A: Observer, B: Observer> Observer for (A, B) {
-    fn observe(&mut self, generation: &Generation) -> ControlFlow<()> {
-        let (first, second) = (self.0.observe(generation), self.1.observe(generation));
-        if first.is_break() { first } else { second }
-    }
-}
-
-impl<O: Observer> Observer for &mut O {
-    fn observe(&mut self, generation: &Generation) -> ControlFlow<()> {
-        (**self).observe(generation)
-    }
-}
-
 /// Keeps every generation: the data of a convergence figure.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct History(pub Vec<Generation>);
@@ -65,29 +50,5 @@ impl Observer for History {
     fn observe(&mut self, generation: &Generation) -> ControlFlow<()> {
         self.0.push(*generation);
         ControlFlow::Continue(())
-    }
-}
-
-/// Ends the run when the caller's clock has passed a limit.
-#[derive(Debug, Clone)]
-pub struct TimeBudget<C> {
-    limit: Duration,
-    elapsed: C,
-}
-
-impl<C: Fn() -> Duration> TimeBudget<C> {
-    /// `elapsed` tells the time since the run began; this crate reads no clock itself.
-    pub const fn new(limit: Duration, elapsed: C) -> Self {
-        Self { limit, elapsed }
-    }
-}
-
-impl<C: Fn() -> Duration> Observer for TimeBudget<C> {
-    fn observe(&mut self, _: &Generation) -> ControlFlow<()> {
-        if (self.elapsed)() >= self.limit {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
     }
 }

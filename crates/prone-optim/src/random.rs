@@ -8,6 +8,8 @@ use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
 
+use crate::Interval;
+
 /// A generator, and its place in the sequence.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Random(Xoshiro256PlusPlus);
@@ -27,6 +29,12 @@ impl Random {
     pub fn uniform(&mut self) -> f64 {
         const STEP: f64 = 1.0 / (1_u64 << 53) as f64;
         (self.0.next_u64() >> 11) as f64 * STEP
+    }
+
+    /// Uniform within the bounds of each variable.
+    pub fn point(&mut self, bounds: &[Interval]) -> Vec<f64> {
+        let numbers = bounds.iter().map(|interval| interval.at(self.uniform()));
+        numbers.collect()
     }
 
     /// Uniform in 0..count (`count` not zero); the bias is below count/2⁶⁴.

@@ -83,7 +83,7 @@ impl<S: Solver> Run<S> {
                 Err(NoScores::CutShort) => return StopReason::Scorer,
             }
             self.solver = solver;
-            let Some(record) = self.record(evaluator.into_tally()) else {
+            let Some(record) = self.record(evaluator.tally) else {
                 // A solver that asks for nothing will never end by itself.
                 return StopReason::Evaluations;
             };

@@ -58,14 +58,14 @@ impl CurveInfo {
     fn of(curve: &Curve) -> Self {
         match curve.form() {
             CurveForm::Polynomial(coefficients) => Self::Polynomial {
-                coefficients_rad: coefficients.to_vec(),
+                coefficients_rad: coefficients.clone(),
             },
             CurveForm::BSpline { degree, control } => Self::BSpline {
-                degree,
-                control_rad: control.to_vec(),
+                degree: *degree,
+                control_rad: control.clone(),
             },
             CurveForm::Through(points) => Self::Through {
-                points: points.to_vec(),
+                points: points.clone(),
             },
         }
     }

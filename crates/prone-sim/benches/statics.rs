@@ -1,4 +1,4 @@
-//! Time of one static evaluation on the NAO: gait parameters to torques, supports and heights.
+//! Time of one static evaluation on the NAO: gait parameters to torques and supports.
 //!
 //! Goal: 10 to 20 µs or less. Reference of the same run: forward kinematics of the whole robot.
 

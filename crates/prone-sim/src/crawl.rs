@@ -20,8 +20,8 @@ pub use touch::Touch;
 use glam::DVec3;
 
 use prone::crawl::{
-    Begin, Crawler, CrawlerError, Delivery, DriveError, Event, FirstPose, Halt, PhaseKind, Pilot,
-    Program, Timing, TimingError, Watch, drive,
+    Begin, Crawler, CrawlerError, Delivery, DriveError, Event, Halt, PhaseKind, Pilot, Program,
+    Timing, TimingError, Watch, drive,
 };
 use prone::gait::cycle::{Cycle, TimeScale};
 use prone::port::{Command as _, JointCommand, Pace as _, PortError, Senses};
@@ -203,13 +203,10 @@ pub fn lie_down<P: Pilot>(
     crawler: &Crawler<P>,
 ) -> Result<SimulatedRobot, CrawlError> {
     let imu = plan.imu_seed.map(|seed| SimulatedImu::new(world, seed));
-    let FirstPose {
-        posture,
-        root_pitch,
-    } = crawler.first_pose();
+    let first = crawler.first_pose();
     let placement = Placement {
-        posture: posture.clone(),
-        pitch: root_pitch,
+        posture: first.joints.clone(),
+        pitch: first.root_pitch,
     };
     let mut simulation = Simulation::new(world, &placement);
     simulation.place_front_at(0.0);
@@ -218,7 +215,7 @@ pub fn lie_down<P: Pilot>(
         .with_imu(imu.transpose()?);
     let regime = world.regime();
     let steps = regime.steps_in(SETTLE) - regime.steps_in(FELT_AT_REST) + 1;
-    let settled = robot.command(&JointCommand::SetPoint(posture));
+    let settled = robot.command(&JointCommand::SetPoint(placement.posture));
     let settled = settled.and_then(|()| (0..steps).try_for_each(|_| robot.wait()));
     settled.map_err(|error| in_simulation(crawler.at(), error))?;
     Ok(robot)

@@ -88,7 +88,10 @@ mod tests {
         let slope = 0.1_f64;
         let mut scene = Scene::level();
         scene.floor.slope = slope;
-        let regime = Regime::LOCOMOTION.with_time_step(0.001);
+        let regime = Regime {
+            time_step: 0.001,
+            ..Regime::LOCOMOTION
+        };
         let world = World::in_scene(&robot, regime, &scene).unwrap();
         let options = world.engine_options();
         assert_eq!(

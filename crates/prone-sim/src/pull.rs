@@ -11,7 +11,6 @@ use std::f64::consts::FRAC_PI_2;
 
 use prone::frames::{Ground, Root, Transform};
 use prone::gait::{CheckedTrajectory, Gait, PhaseDuration, TrajectoryError};
-use prone::mapping::Mapping;
 use prone::robot::{BodyPart, JointAngles, Tops};
 
 use crate::simulation::{Placement, Simulation, SimulationError, Snapshot};
@@ -145,7 +144,7 @@ pub fn run(
     keep: Keep,
 ) -> Result<Pull, PullError> {
     let trajectory = plan(world, gait, duration)?;
-    let placement = placement(world, gait, &trajectory, start)?;
+    let placement = placement(world, &trajectory, start)?;
     let broken = |source| PullError::Simulation {
         gait: gait.name.clone(),
         duration_s: duration.seconds(),
@@ -158,10 +157,9 @@ pub fn run(
 /// How the robot is laid down before the phase.
 ///
 /// # Errors
-/// [`PullError::StartPosture`], or [`PullError::Trajectory`] where the mapping does not fit.
+/// [`PullError::StartPosture`].
 pub fn placement(
     world: &World,
-    gait: &Gait,
     trajectory: &CheckedTrajectory,
     start: Start,
 ) -> Result<Placement, PullError> {
@@ -180,12 +178,10 @@ pub fn placement(
             })
         }
         Start::FirstPose => {
-            let mapping = Mapping::new(robot, gait.mapping, gait.arm);
-            let mapping = mapping.map_err(TrajectoryError::Mapping)?;
-            let first = &trajectory.samples()[0];
+            let first = trajectory.first();
             Ok(Placement {
                 posture: first.joints.clone(),
-                pitch: mapping.root_pitch(&first.chain),
+                pitch: first.root_pitch,
             })
         }
     }

@@ -1,8 +1,9 @@
 //! What a client owns can be handed to a thread of its own and stay there. Compiling this file is the
 //! test.
 
-use prone::crawl::{Crawler, HoldHeading, HoldLine, Program, SlopeAware, Straight, Timing};
+use prone::crawl::{Crawler, Program, SlopeAware, Straight, Timing};
 use prone::port::{JointCommand, PortError, Senses};
+use prone::steering::{HeadingHold, TurnTo};
 use prone_sim::crawl::{Crawl, CrawlPlan};
 use prone_sim::driven::SimulatedRobot;
 use prone_sim::imu::SimulatedImu;
@@ -22,11 +23,11 @@ const _: () = {
     can_be_handed_to_a_thread::<Program>();
     can_be_handed_to_a_thread::<Timing>();
     can_be_handed_to_a_thread::<Straight>();
-    can_be_handed_to_a_thread::<HoldLine>();
-    can_be_handed_to_a_thread::<HoldHeading>();
-    can_be_handed_to_a_thread::<SlopeAware<HoldLine>>();
+    can_be_handed_to_a_thread::<HeadingHold>();
+    can_be_handed_to_a_thread::<TurnTo>();
+    can_be_handed_to_a_thread::<SlopeAware<HeadingHold>>();
     can_be_handed_to_a_thread::<Crawler<Straight>>();
-    can_be_handed_to_a_thread::<Crawler<SlopeAware<HoldLine>>>();
+    can_be_handed_to_a_thread::<Crawler<SlopeAware<HeadingHold>>>();
 };
 
 const _: () = {

@@ -41,7 +41,6 @@ use std::f64::consts::TAU;
 
 use glam::{DQuat, DVec3};
 
-use crate::frames::{Ground, Root, Transform};
 use crate::statics::GRAVITY;
 
 /// Below this length of u in the sagittal plane pitch is noise: within 6° of lying on a side.
@@ -137,20 +136,6 @@ impl Attitude {
             })
     }
 
-    /// The attitude of a root whose pose is known.
-    pub fn from_pose(ground_from_root: &Transform<Ground, Root>) -> Self {
-        Self {
-            up_in_root: ground_from_root.rotation().inverse() * DVec3::Z,
-        }
-    }
-
-    /// A root that is only pitched, rad.
-    pub fn pitched(pitch: f64) -> Self {
-        Self {
-            up_in_root: DVec3::new(-pitch.sin(), 0.0, pitch.cos()),
-        }
-    }
-
     /// The unit vector that points up, in the root frame.
     pub const fn up(&self) -> DVec3 {
         self.up_in_root
@@ -174,12 +159,6 @@ impl Attitude {
     pub fn roll(&self) -> f64 {
         // Rounding may leave a unit vector a few 1e-16 too long.
         self.up_in_root.y.clamp(-1.0, 1.0).asin()
-    }
-
-    /// Angle between two ups, rad.
-    pub fn angle_to(&self, other: &Self) -> f64 {
-        let (one, two) = (self.up_in_root, other.up_in_root);
-        one.cross(two).length().atan2(one.dot(two))
     }
 
     /// Slope of the floor in the direction of travel, rad, uphill positive, where the same posture
@@ -239,11 +218,6 @@ impl AttitudeFilter {
     /// The estimate now.
     pub const fn attitude(&self) -> Attitude {
         self.attitude
-    }
-
-    /// What it holds for the gyroscopes' bias, rad/s.
-    pub const fn gyroscope_bias(&self) -> DVec3 {
-        self.gyroscope_bias
     }
 }
 

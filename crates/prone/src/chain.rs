@@ -25,10 +25,6 @@
 //! the other below the floor. The ankle is above the line exactly when K4 > 0. With
 //! ψ = atan2(K2, K1), K4 = −√(K1²+K2²) sin(θ2 − ψ), so the wanted root is θ2 = ψ − arccos(·).
 
-mod open;
-
-pub use open::{OpenChain, OpenChainError};
-
 use crate::frames::{Ground, Point};
 
 /// Link lengths of the closed chain and the distance it spans, metres.
@@ -94,20 +90,35 @@ pub struct ChainPosture {
 }
 
 /// Why a chain does not close.
+///
+/// The leg is too short or too long to reach the shoulder that the arm asks for; NaN input ends
+/// here too.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum ClosureError {
-    /// The leg is too short or too long to reach the shoulder that the arm asks for; NaN input
-    /// ends here too.
-    #[error(
-        "the chain cannot close: its leg would need an ankle angle of cosine {cosine:.4}, outside -1..1"
-    )]
-    OutOfReach {
-        /// The cosine of (θ2 − ψ) that equation (4) asks for.
-        cosine: f64,
-    },
+#[error(
+    "the chain cannot close: its leg would need an ankle angle of cosine {cosine:.4}, outside -1..1"
+)]
+pub struct ClosureError {
+    /// The cosine of (θ2 − ψ) that equation (4) asks for.
+    pub cosine: f64,
 }
 
 impl ChainAngles {
+    /// From θ1 to θ5.
+    pub const fn from_array([toe, ankle, knee, hip, shoulder]: [f64; 5]) -> Self {
+        Self {
+            toe,
+            ankle,
+            knee,
+            hip,
+            shoulder,
+        }
+    }
+
+    /// θ1 to θ5.
+    pub const fn to_array(self) -> [f64; 5] {
+        [self.toe, self.ankle, self.knee, self.hip, self.shoulder]
+    }
+
     /// The gait parameters of these angles: the inverse of [`ClosedChain::close`].
     pub fn gait_parameters(&self) -> GaitParameters {
         GaitParameters {
@@ -138,7 +149,7 @@ impl ClosedChain {
     /// Solves equations (1) to (4) for the root with the leg above the ground.
     ///
     /// # Errors
-    /// [`ClosureError::OutOfReach`] where no posture satisfies (1) to (3).
+    /// [`ClosureError`] where no posture satisfies (1) to (3).
     #[inline]
     pub fn close(&self, parameters: GaitParameters) -> Result<ChainAngles, ClosureError> {
         let [l1, l2, l3, l4, l5] = self.links();
@@ -155,7 +166,7 @@ impl ClosedChain {
         let rigid = rigid_squared.sqrt();
         let cosine = (x_hat * x_hat + z_hat * z_hat - l1 * l1 - rigid_squared) / (2.0 * l1 * rigid);
         if !(-1.0..=1.0).contains(&cosine) {
-            return Err(ClosureError::OutOfReach { cosine });
+            return Err(ClosureError { cosine });
         }
         let ankle = k2.atan2(k1) - cosine.acos();
 
@@ -164,29 +175,17 @@ impl ClosedChain {
         let k4 = rigid * (1.0 - cosine * cosine).sqrt();
         let toe = (k4 * x_hat + k3 * z_hat).atan2(k3 * x_hat - k4 * z_hat);
 
-        let shoulder = parameters.upper_arm - toe - ankle - parameters.knee - parameters.hip;
-        Ok(ChainAngles {
-            toe,
-            ankle,
-            knee: parameters.knee,
-            hip: parameters.hip,
-            shoulder,
-        })
+        let GaitParameters { knee, hip, .. } = parameters;
+        let shoulder = parameters.upper_arm - toe - ankle - knee - hip;
+        Ok(ChainAngles::from_array([toe, ankle, knee, hip, shoulder]))
     }
 
     /// Joint centres for given angles, whether or not they close the chain.
     pub fn posture(&self, angles: &ChainAngles) -> ChainPosture {
-        let relative = [
-            angles.toe,
-            angles.ankle,
-            angles.knee,
-            angles.hip,
-            angles.shoulder,
-        ];
         let toe = Point::ORIGIN;
         let mut points = [toe; 5];
         let (mut x, mut z, mut absolute) = (0.0, 0.0, 0.0);
-        for ((point, length), angle) in points.iter_mut().zip(self.links()).zip(relative) {
+        for ((point, length), angle) in points.iter_mut().zip(self.links()).zip(angles.to_array()) {
             absolute += angle;
             x += length * absolute.cos();
             z += length * absolute.sin();

@@ -14,6 +14,10 @@
 //! Inside: `f64`, SI units, radians. Frames are in the types ([`frames`]): a transform is named
 //! and typed `target_from_source`, so that neighbours cancel.
 
+/// Tests that other crates share name this one as they do.
+#[cfg(test)]
+extern crate self as prone;
+
 pub mod attitude;
 pub mod chain;
 pub mod cost;

@@ -35,7 +35,7 @@ use std::f64::consts::TAU;
 
 use glam::{DQuat, DVec3};
 
-use crate::chain::{ChainAngles, ClosedChain};
+use crate::chain::{ChainAngles, ClosedChain, ClosureError};
 use crate::robot::{JointAngles, Range, Robot};
 
 /// Which chain and which offsets a mapping uses.
@@ -91,16 +91,13 @@ struct Side {
     geometry: SideGeometry,
     /// θ2⁰ as the variant has it.
     ankle_zero: f64,
-    /// How far the upper arm is spread outwards.
+    /// How far the upper arm is spread outwards, rad.
     outward: f64,
-    /// Shoulder roll joint angle.
-    roll: f64,
-    /// Zero angle of the upper arm at that roll, θ5⁰.
-    shoulder_zero: f64,
+    spread: Spread,
 }
 
 /// An upper arm's roll, and the zero angle θ5⁰ that goes with it, rad.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 struct Spread {
     roll: f64,
     shoulder_zero: f64,
@@ -136,6 +133,9 @@ pub enum MappingError {
         /// By how much, mm.
         off_mm: f64,
     },
+    /// The chain does not close.
+    #[error(transparent)]
+    Closure(#[from] ClosureError),
     /// The elbow's two hinges cannot point the forearm forward.
     #[error("the forearm cannot point forward: its hinges miss the direction by {miss:.4}")]
     ForearmOutOfReach {
@@ -191,8 +191,7 @@ impl Mapping {
             Side {
                 ankle_zero: published.map_or(geometry.zero_angles[0], |p| -p.ankle_offset),
                 outward,
-                roll: geometry.outward_sign * outward,
-                shoulder_zero: geometry.upper_arm(outward).1 - geometry.trunk_zero,
+                spread: Spread::from_outward(&geometry, outward),
                 geometry,
             }
         });
@@ -274,31 +273,7 @@ impl Mapping {
 
     /// The same with the mapping's own roll.
     fn unspread_limb_angles(&self, robot: &Robot, chain: &ChainAngles) -> JointAngles {
-        let spread = [0, 1].map(|index| self.sides[index].spread(0.0));
-        self.limb_angles(robot, chain, &spread)
-    }
-
-    /// Chain angles of the left side's joints: the inverse of [`Mapping::joint_angles`].
-    ///
-    /// θ1 is passive: it follows from the elbow being on the ground (equation (2) of
-    /// [`crate::chain`]), whether or not it lies at the chain's span.
-    pub fn chain_angles(&self, robot: &Robot, joints: &JointAngles) -> ChainAngles {
-        let layout = &robot.chain.left;
-        let [side, _] = &self.sides;
-        let [_, zero_knee, zero_hip] = side.geometry.zero_angles;
-        let sign = side.geometry.pitch_signs;
-        let lying = ChainAngles {
-            toe: 0.0,
-            ankle: wrap(sign[0] * joints[layout.ankle] + side.ankle_zero),
-            knee: wrap(sign[1] * joints[layout.knee] + zero_knee),
-            hip: wrap(sign[2] * joints[layout.hip] + zero_hip),
-            shoulder: wrap(-sign[3] * joints[layout.shoulder] + side.shoulder_zero),
-        };
-        let elbow = self.chain.posture(&lying).elbow;
-        ChainAngles {
-            toe: -elbow.z().atan2(elbow.x()),
-            ..lying
-        }
+        self.limb_angles(robot, chain, &[0, 1].map(|index| self.sides[index].spread))
     }
 
     /// Pitch of the root (its turn about +y, rad) in a chain posture.
@@ -308,7 +283,7 @@ impl Mapping {
 
     /// The shoulder roll joint angle of the left side, rad.
     pub const fn shoulder_roll(&self) -> f64 {
-        self.sides[0].roll
+        self.sides[0].spread.roll
     }
 
     /// The ankle joint angle minus θ2, left side, rad.
@@ -317,21 +292,24 @@ impl Mapping {
     }
 }
 
+impl Spread {
+    /// Of an upper arm that is spread outwards by an angle, rad.
+    fn from_outward(geometry: &SideGeometry, outward: f64) -> Self {
+        Self {
+            roll: geometry.outward_sign * outward,
+            shoulder_zero: geometry.upper_arm(outward).1 - geometry.trunk_zero,
+        }
+    }
+}
+
 impl Side {
     /// The arm spread further outwards, rad.
     fn spread(&self, further: f64) -> Spread {
         // Compared, not subtracted: most gaits spread nothing, and the geometry is not asked then.
         if further == 0.0 {
-            return Spread {
-                roll: self.roll,
-                shoulder_zero: self.shoulder_zero,
-            };
+            return self.spread;
         }
-        let outward = self.outward + further;
-        Spread {
-            roll: self.geometry.outward_sign * outward,
-            shoulder_zero: self.geometry.upper_arm(outward).1 - self.geometry.trunk_zero,
-        }
+        Spread::from_outward(&self.geometry, self.outward + further)
     }
 
     /// Equation (3) for a trunk angle, a shoulder joint angle and a shoulder roll, rad.

@@ -21,8 +21,8 @@ pub struct Regime {
     pub effort: Effort,
     /// Which servo gains hold.
     pub servo: Servo,
-    /// Which servo law holds.
-    pub servo_law: Law,
+    /// Law of the servos in place of the robot's own ([`Control::servo`]).
+    pub servo_law: Option<ServoLaw>,
     /// Largest speed that a servo commands in place of the law's, rad/s.
     pub servo_speed: Option<f64>,
     /// Length of one engine step, s; a whole number of them makes a [`CONTROL_STEP`].
@@ -67,15 +67,6 @@ impl Servo {
     }
 }
 
-/// Which servo law a regime uses.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Law {
-    /// The robot's own ([`Control::servo`]).
-    Robot,
-    /// That of the published recordings, on whatever robot.
-    Recordings,
-}
-
 impl Regime {
     /// Slippery contacts, so that the chain squeezes nothing: the recordings had practically no
     /// internal squeeze (−0.3 ± 2.3 N), and their servos a limit of 30 N·m.
@@ -86,7 +77,7 @@ impl Regime {
         stops: Stops::Study,
         effort: Effort::Uniform(30.0),
         servo: Servo::Robot,
-        servo_law: Law::Recordings,
+        servo_law: Some(RECORDINGS),
         servo_speed: None,
         time_step: TIME_STEP,
     };
@@ -100,7 +91,7 @@ impl Regime {
         stops: Stops::Maker,
         effort: Effort::Published,
         servo: Servo::Robot,
-        servo_law: Law::Robot,
+        servo_law: None,
         servo_speed: None,
         time_step: TIME_STEP,
     };
@@ -111,19 +102,6 @@ impl Regime {
         name: "table",
         friction: 1.0,
         impratio: 0.1,
-        stops: Stops::Study,
-        effort: Effort::Uniform(30.0),
-        servo: Servo::Robot,
-        servo_law: Law::Recordings,
-        servo_speed: None,
-        time_step: TIME_STEP,
-    };
-
-    /// Stiff joints on a slippery floor: the rigid body of [`crate::statics`]. 20 N·m·s/rad times
-    /// the rate of [`RECORDINGS`] is 400 N·m/rad.
-    pub const STIFF: Self = Self {
-        name: "stiff",
-        servo: Servo::Uniform(20.0),
         ..Self::TORQUE_STUDY
     };
 }
@@ -136,39 +114,9 @@ pub const TIME_STEP: f64 = 0.0025;
 pub const CONTROL_STEP: f64 = 0.05;
 
 impl Regime {
-    /// The same with another length of the engine's step, s.
-    #[must_use]
-    pub const fn with_time_step(self, time_step: f64) -> Self {
-        Self { time_step, ..self }
-    }
-
-    /// The same with another friction.
-    #[must_use]
-    pub const fn with_friction(self, friction: f64) -> Self {
-        Self { friction, ..self }
-    }
-
-    /// The same with other servo gains.
-    #[must_use]
-    pub const fn with_servo(self, servo: Servo) -> Self {
-        Self { servo, ..self }
-    }
-
-    /// The same with servos that command other speeds, up to one, rad/s.
-    #[must_use]
-    pub const fn with_servo_speed(self, servo_speed: f64) -> Self {
-        Self {
-            servo_speed: Some(servo_speed),
-            ..self
-        }
-    }
-
     /// The law that a robot's servos follow.
     pub fn servo_law(&self, control: &Control) -> ServoLaw {
-        let law = match self.servo_law {
-            Law::Robot => control.servo,
-            Law::Recordings => RECORDINGS,
-        };
+        let law = self.servo_law.unwrap_or(control.servo);
         ServoLaw {
             speed: self.servo_speed.unwrap_or(law.speed),
             ..law
@@ -206,10 +154,11 @@ mod tests {
 
     #[test]
     fn a_control_step_is_a_whole_number_of_engine_steps() {
-        for regime in [
-            Regime::TORQUE_STUDY,
-            Regime::LOCOMOTION.with_time_step(0.001),
-        ] {
+        let fine = Regime {
+            time_step: 0.001,
+            ..Regime::LOCOMOTION
+        };
+        for regime in [Regime::TORQUE_STUDY, fine] {
             let steps = regime.steps_in(CONTROL_STEP) as f64;
             assert!((steps * regime.time_step - CONTROL_STEP).abs() < 1e-15);
         }
@@ -234,10 +183,13 @@ mod tests {
             uphill: 0.03,
         };
         assert_eq!(Regime::LOCOMOTION.servo_law(&control), own);
-        for study in [Regime::TORQUE_STUDY, Regime::TABLE, Regime::STIFF] {
+        for study in [Regime::TORQUE_STUDY, Regime::TABLE] {
             assert_eq!(study.servo_law(&control), RECORDINGS, "{}", study.name);
         }
-        let brisk = Regime::LOCOMOTION.with_servo_speed(8.0);
+        let brisk = Regime {
+            servo_speed: Some(8.0),
+            ..Regime::LOCOMOTION
+        };
         let faster = ServoLaw { speed: 8.0, ..own };
         assert_eq!(brisk.servo_law(&control), faster);
     }

@@ -159,20 +159,12 @@ impl Scene {
 
     /// Whether it is the scene of [`Scene::level`], under whatever name.
     pub fn is_plain(&self) -> bool {
-        let Self {
-            name: _,
-            description: _,
-            floor,
-            plates,
-            panels,
-            ramps,
-            marker,
-        } = self;
-        *floor == Floor::default()
-            && plates.is_empty()
-            && panels.is_empty()
-            && ramps.is_empty()
-            && marker.is_none()
+        let named = Self {
+            name: self.name.clone(),
+            description: self.description.clone(),
+            ..Self::level()
+        };
+        *self == named
     }
 }
 

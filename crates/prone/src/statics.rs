@@ -37,8 +37,8 @@
 //!
 //! `load` is the sign of the published recordings, `motor` that of the engine's actuators.
 //!
-//! **The second route** ([`virtual_work`]) knows neither supports' hull nor moments: the motors'
-//! work is what lifts the weight and stretches the squeezed span,
+//! **The second route** (`virtual_work`, of the tests) knows neither supports' hull nor moments: the
+//! motors' work is what lifts the weight and stretches the squeezed span,
 //! `motor_j = ½ ∂(G H + S L)/∂q_j` for a mirrored pair.
 
 mod balance;
@@ -46,7 +46,6 @@ mod half;
 mod moments;
 mod outline;
 mod source;
-pub mod virtual_work;
 
 pub use half::{ASYMMETRY_TOLERANCE, HalfRobot, SymmetryError};
 pub use source::{StaticTorques, StaticsError};
@@ -98,10 +97,6 @@ pub struct Rest {
     pub ground_from_root: Transform<Ground, Root>,
     /// What carries it.
     pub footing: Footing,
-    /// Centre of mass.
-    pub centre_of_mass: Point<Ground>,
-    /// How far the parts of the robot are above the floor.
-    pub heights: Heights,
     load: Vec<f64>,
 }
 
@@ -122,10 +117,7 @@ pub enum Footing {
 /// A place where the floor carries the robot, on both sides of it alike.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Support {
-    /// Index in [`Robot::shapes`] of the shape, or of the one of a mirrored pair that the model
-    /// lists first.
-    pub shape: usize,
-    /// Its body.
+    /// The body, or the one of a mirrored pair that the model lists first.
     pub body: BodyId,
     /// Its row in records.
     pub group: ContactGroup,
@@ -135,20 +127,6 @@ pub struct Support {
     pub reaction: f64,
     /// Forward force of the floor, both sides together, N: ± the squeeze.
     pub forward: f64,
-}
-
-/// Heights above the floor, metres.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Heights {
-    /// Highest point of any shape.
-    pub top: f64,
-    /// Highest point of the head; −∞ without one.
-    pub head_top: f64,
-    /// The hip's centre.
-    pub hip: f64,
-    /// Lowest point by [`ContactGroup::ALL`]; ∞ for a group without shapes, and negative where a
-    /// shape that may not carry sinks in.
-    pub clearance: [f64; 4],
 }
 
 /// Why a pose has no rest.
@@ -188,21 +166,18 @@ pub fn rest(
     stance: Stance,
 ) -> Result<Rest, RestError> {
     let pose = half.pose(robot, angles)?;
-    let parts = half.parts(&pose);
-    let centre = half.centre_of_mass(&pose);
-    let carries = |part: &Part| half.may_carry(part, stance.supports);
+    let parts = half.parts(robot, &pose);
+    let centre = half.centre_of_mass(robot, &pose);
+    let carries = |part: &Part| half.may_carry(robot, part, stance.supports);
     let found = balance::settle(&parts, carries, centre, start_pitch(robot, half, &pose))?;
 
-    let grounded = Grounded::new(&found, centre);
-    let weight = half.mass() * GRAVITY;
-    let footing = footing(&found, &grounded, half, weight, stance.squeeze);
-    let wrenches = moments::wrenches(half, &pose, &found, &footing);
+    let ground_from_root = ground_from_root(&found, centre);
+    let footing = footing(robot, &found, ground_from_root, stance.squeeze);
+    let wrenches = moments::wrenches(robot, half, &pose, &found, &footing);
     Ok(Rest {
-        ground_from_root: grounded.ground_from_root,
+        ground_from_root,
         footing,
-        centre_of_mass: grounded.ground_from_root * centre,
-        heights: heights(robot, half, &pose, &parts, &grounded),
-        load: moments::loads(half, &pose, &wrenches),
+        load: moments::loads(robot, half, &pose, &wrenches),
     })
 }
 
@@ -214,59 +189,32 @@ fn start_pitch(robot: &Robot, half: &HalfRobot, pose: &HalfPose) -> f64 {
     forward.z.atan2(forward.x)
 }
 
-/// Where the floor is, seen from the root.
-struct Grounded {
-    ground_from_root: Transform<Ground, Root>,
-    down: DVec3,
-    /// How far the floor is below the root's origin.
-    floor: f64,
-}
-
-impl Grounded {
-    fn new(found: &Equilibrium, centre: Point<Root>) -> Self {
-        let turn = DQuat::from_rotation_y(found.pitch);
-        let down = balance::down(found.pitch);
-        let floor = centre.metres().dot(down) + found.height;
-        let rear = found.contacts[0].point.dot(balance::forward(found.pitch));
-        Self {
-            ground_from_root: Transform::new(turn, DVec3::new(-rear, 0.0, floor)),
-            down,
-            floor,
-        }
-    }
-
-    fn height(&self, point: DVec3) -> f64 {
-        self.floor - point.dot(self.down)
-    }
-
-    fn lowest(&self, part: &Part) -> f64 {
-        self.floor - part.reach(self.down)
-    }
-
-    fn highest(&self, part: &Part) -> f64 {
-        self.floor + part.reach(-self.down)
-    }
+/// The floor is as far below the centre of mass as H says, and x = 0 is the rear contact.
+fn ground_from_root(found: &Equilibrium, centre: Point<Root>) -> Transform<Ground, Root> {
+    let floor = centre.metres().dot(balance::down(found.pitch)) + found.height;
+    let rear = found.contacts[0].point.dot(balance::forward(found.pitch));
+    let turn = DQuat::from_rotation_y(found.pitch);
+    Transform::new(turn, DVec3::new(-rear, 0.0, floor))
 }
 
 /// Equation (3).
 fn footing(
+    robot: &Robot,
     found: &Equilibrium,
-    grounded: &Grounded,
-    half: &HalfRobot,
-    weight: f64,
+    ground_from_root: Transform<Ground, Root>,
     squeeze: f64,
 ) -> Footing {
     let support = |contact: &balance::Contact, reaction: f64, forward: f64| {
-        let shape = half.shape(contact.shape);
+        let body = robot.shapes[contact.shape].body;
         Support {
-            shape: shape.index,
-            body: shape.body,
-            group: shape.group,
-            point: grounded.ground_from_root * Point::<Root>::new(contact.point),
+            body,
+            group: robot.bodies[body.0].contact_group,
+            point: ground_from_root * Point::<Root>::new(contact.point),
             reaction,
             forward,
         }
     };
+    let weight = robot.mass() * GRAVITY;
     let [rear, front] = &found.contacts;
     let apart = front.ahead - rear.ahead;
     if apart > 0.0 {
@@ -279,63 +227,11 @@ fn footing(
     }
 }
 
-fn heights(
-    robot: &Robot,
-    half: &HalfRobot,
-    pose: &HalfPose,
-    parts: &[Part],
-    grounded: &Grounded,
-) -> Heights {
-    let hip = &robot.joints[robot.chain.left.hip.0];
-    let mut heights = Heights {
-        top: f64::NEG_INFINITY,
-        head_top: f64::NEG_INFINITY,
-        hip: grounded.height(pose.point(half, (hip.body, hip.anchor))),
-        clearance: [f64::INFINITY; 4],
-    };
-    for part in parts {
-        let shape = half.shape(part.shape);
-        let (lowest, highest) = (grounded.lowest(part), grounded.highest(part));
-        heights.top = heights.top.max(highest);
-        if shape.is_head {
-            heights.head_top = heights.head_top.max(highest);
-        }
-        let clearance = &mut heights.clearance[shape.group_column];
-        *clearance = clearance.min(lowest);
-    }
-    heights
-}
-
 impl Rest {
     /// Moment of weights and reactions beyond a joint about its axis, N·m: the sign of the
-    /// published recordings.
+    /// published recordings, opposite to that of the engine's actuators.
     pub fn load(&self, joint: JointId) -> f64 {
         self.load[joint.0]
-    }
-
-    /// Torque of the motor that holds the joint, N·m: the sign of the engine's actuators.
-    pub fn motor(&self, joint: JointId) -> f64 {
-        -self.load[joint.0]
-    }
-
-    /// All loads, N·m, in the order of [`Robot::joints`].
-    pub fn loads(&self) -> &[f64] {
-        &self.load
-    }
-
-    /// Pitch of the root about +y, rad.
-    pub fn pitch(&self) -> f64 {
-        let forward = self.ground_from_root.rotate(DVec3::X);
-        (-forward.z).atan2(forward.x)
-    }
-
-    /// How far the centre of mass is from tipping over the nearer support, metres; 0 on one.
-    pub fn margin(&self) -> f64 {
-        let x = self.centre_of_mass.x();
-        match self.footing {
-            Footing::Two { rear, front } => (x - rear.point.x()).min(front.point.x() - x),
-            Footing::One(_) => 0.0,
-        }
     }
 }
 

@@ -22,7 +22,7 @@ mod grid;
 mod recorded;
 
 pub use csv::{COLUMNS, ParseError, comments, parse, parse_recorded, write};
-pub use grid::{Axis, AxisName, Cell, Grid, GridError};
+pub use grid::{Axis, Grid, GridError};
 pub use recorded::{CARRYING_SHARE, ContactForces, RecordedMap};
 
 use crate::chain::{ClosureError, GaitParameters};
@@ -83,8 +83,8 @@ pub enum TorqueGap {
     /// Beyond the edge of the map.
     #[error("{axis} = {value:.4} rad is outside the map's {low:.4}..{high:.4}")]
     Outside {
-        /// The axis that is left.
-        axis: AxisName,
+        /// The axis that is left, as the tables call it.
+        axis: &'static str,
         /// The value asked for, rad.
         value: f64,
         /// Smallest value of the map, rad.
@@ -228,9 +228,8 @@ pub fn row_of(source: &impl TorqueSource, at: GaitParameters) -> Row {
 
 impl TorqueSource for TorqueMap {
     fn torques(&self, at: GaitParameters) -> Result<JointTorques, TorqueGap> {
-        let cell = self.grid.locate(at)?;
         let mut sum = [0.0; 4];
-        for (row, weight) in self.grid.corners(&cell) {
+        for (row, weight) in self.grid.corners(at)? {
             if weight == 0.0 {
                 continue;
             }

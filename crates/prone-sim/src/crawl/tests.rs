@@ -1,7 +1,7 @@
-use prone::crawl::{HoldHeading, HoldLine, SlopeAware, Straight};
+use prone::crawl::{SlopeAware, Straight};
 use prone::gait::cycle::CheckedCycle;
 use prone::port::{Knot, Segment, Stop as _};
-use prone::steering::HeadingHold;
+use prone::steering::{HeadingHold, TurnTo};
 use prone_files::shipped;
 
 use super::*;
@@ -12,10 +12,8 @@ fn nao() -> LoadedRobot {
     LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap()
 }
 
-fn hold(limit: f64) -> HoldLine {
-    HoldLine {
-        hold: HeadingHold::new(nao().robot().control.steering, limit),
-    }
+fn hold(limit: f64) -> HeadingHold {
+    HeadingHold::new(nao().robot().control.steering, limit)
 }
 
 fn crawl(world: &World, cycle: &str, cycles: usize, turn: f64) -> Crawl {
@@ -213,9 +211,7 @@ fn a_heading_is_reached_without_overshoot() {
         detail: Detail::Sums,
     };
     let heading = 45.0_f64.to_radians();
-    let pilot = HoldHeading {
-        to: prone::steering::TurnTo { heading, limit },
-    };
+    let pilot = TurnTo { heading, limit };
     let crawl = run(&world, &plan, pilot).unwrap();
     let yaws = crawl.cycles.iter().map(|cycle| cycle.to.yaw.to_degrees());
     let (most, last) = yaws.fold((0.0_f64, 0.0), |(most, _), yaw| (most.max(yaw), yaw));
@@ -366,7 +362,7 @@ fn a_crawl_begins_where_the_robot_lies() {
     };
     let plan = steady(3);
     let crawler = crawler(&world, &plan, begin, Straight::default()).unwrap();
-    let extension = crawler.first_pose().posture;
+    let extension = crawler.first_pose().joints.clone();
     let (crawl, robot) = proceed(lying, crawler, &plan, &never).unwrap();
     let third = crawl.cycles[2].advance().forward;
     // As from its settled start, within a tenth: it lies beside its line, turned a little.

@@ -1,6 +1,6 @@
 //! A crawl as it was asked for, loaded and checked: robot, world, cycles, pilot.
 
-use prone::crawl::{CrawlerError, HoldHeading, HoldLine, Pilot, SlopeAware, Straight};
+use prone::crawl::{CrawlerError, Pilot, SlopeAware, Straight};
 use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale, TimeScaleError};
 use prone::regime::{Regime, Servo};
 use prone::robot::{JointAngles, Robot};
@@ -315,10 +315,8 @@ impl CrawlSetup {
         let control = &self.world.robot().control;
         let steering: Box<dyn Pilot> = match self.steering {
             Steering::Straight { turn } => Box::new(Straight { turn }),
-            Steering::Hold { limit } => Box::new(HoldLine {
-                hold: HeadingHold::new(control.steering, limit),
-            }),
-            Steering::To(to) => Box::new(HoldHeading { to }),
+            Steering::Hold { limit } => Box::new(HeadingHold::new(control.steering, limit)),
+            Steering::To(to) => Box::new(to),
         };
         if self.uphill.is_none() {
             return steering;
@@ -333,10 +331,7 @@ impl CrawlRunError {
         matches!(
             self,
             Self::Cycle(_)
-                | Self::Crawl(
-                    CrawlError::Crawler(CrawlerError::Cycle { .. } | CrawlerError::Mapping { .. })
-                        | CrawlError::Imu(_)
-                )
+                | Self::Crawl(CrawlError::Crawler(CrawlerError::Cycle { .. }) | CrawlError::Imu(_))
         )
     }
 }
@@ -444,12 +439,16 @@ fn regime(experiment: &CrawlExperiment, robot: &Robot) -> Regime {
         ServoChoice::Soft => Regime::LOCOMOTION,
         ServoChoice::Stiff => {
             let gain = robot.control.stiff_servo_gain;
-            Regime::LOCOMOTION.with_servo(Servo::Uniform(gain))
+            Regime {
+                servo: Servo::Uniform(gain),
+                ..Regime::LOCOMOTION
+            }
         }
     };
-    experiment
-        .time_step_s
-        .map_or(regime, |seconds| regime.with_time_step(seconds))
+    experiment.time_step_s.map_or(regime, |time_step| Regime {
+        time_step,
+        ..regime
+    })
 }
 
 fn scene(choice: &SceneChoice) -> Result<Scene, CrawlSetupError> {

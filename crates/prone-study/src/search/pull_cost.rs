@@ -11,7 +11,7 @@
 
 use std::sync::Arc;
 
-use prone::cost::graded::{self, Norm, Per, Rule, Rules, Violations};
+use prone::cost::graded::{self, Norm, Rule, Violations};
 use prone::cost::published::{PublishedObjective, VIOLATION_COST};
 use prone::gait::Gait;
 use prone::mapping::{ArmMode, Mapping};
@@ -169,20 +169,12 @@ impl PullCosts {
         norm: &Norm,
         mut violations: Violations,
     ) -> Cost {
-        let none = Rules {
-            clearance: 0.0,
-            height: |_: &_| 0.0,
-            rate: f64::INFINITY,
-        };
         let samples = samples(gait, INTERVALS);
-        let (chain, phase) = (mapping.chain(), phase(&samples, self.terms.duration));
-        let per = per(self.terms.share, chain, gait);
-        let price = graded::price(chain, phase, torques, &none, norm, per);
-        let gaps = price.violations.iter();
-        for (rule, excess) in gaps.filter(|(rule, _)| *rule == Rule::Torque) {
-            violations.add(rule, excess.sum);
-        }
-        graded_cost(price.torque, &violations, None)
+        let phase = phase(&samples, self.terms.duration);
+        let (torque, gaps) = graded::torque_part(phase, torques, norm);
+        violations.add(Rule::Torque, f64::from(gaps));
+        let torque = per(self.terms.share, mapping.chain(), gait).of(torque);
+        graded_cost(torque, &violations, None)
     }
 
     fn simulated(
@@ -202,10 +194,7 @@ impl PullCosts {
             Ok(trial) => trial,
             Err(error) => return unsimulated(violations, Some(error)),
         };
-        let torque = match per(terms.share, mapping.chain(), gait) {
-            Per::Phase => torque,
-            Per::Metre { advance } => torque / advance,
-        };
+        let torque = per(terms.share, mapping.chain(), gait).of(torque);
         if terms.body_share < 1.0 {
             let excess = (body_share - terms.body_share) / (1.0 - terms.body_share);
             violations.add(Rule::BodyShare, excess);

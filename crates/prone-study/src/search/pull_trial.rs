@@ -38,7 +38,7 @@ impl Begun {
     pub(super) fn settle(world: &World, gait: &Gait, duration: PhaseDuration) -> Self {
         let begin = || {
             let trajectory = pull::plan(world, gait, duration).ok()?;
-            let placement = pull::placement(world, gait, &trajectory, Start::FirstPose).ok()?;
+            let placement = pull::placement(world, &trajectory, Start::FirstPose).ok()?;
             let simulation = pull::settle(world, &placement).ok()?;
             Some((placement, simulation))
         };
@@ -53,7 +53,7 @@ impl Begun {
         duration: PhaseDuration,
     ) -> Result<Pull, PullError> {
         let trajectory = pull::plan(world, gait, duration).map_err(PullError::from)?;
-        let placement = pull::placement(world, gait, &trajectory, Start::FirstPose)?;
+        let placement = pull::placement(world, &trajectory, Start::FirstPose)?;
         let diverged = |source| PullError::Simulation {
             gait: gait.name.clone(),
             duration_s: duration.seconds(),

@@ -68,7 +68,10 @@ fn plain(kind: SettingKind, cycles: usize, role: Role) -> SettingSpec {
 /// A corner of a search of the advance: another friction, at another speed.
 fn corner(kind: SettingKind, friction: f64, scale: f64) -> Result<SettingSpec, SettingError> {
     Ok(SettingSpec {
-        regime: Regime::LOCOMOTION.with_friction(friction),
+        regime: Regime {
+            friction,
+            ..Regime::LOCOMOTION
+        },
         scale: TimeScale::new(scale)?,
         ..plain(kind, 1, Role::Keep(KEEP))
     })
@@ -76,7 +79,10 @@ fn corner(kind: SettingKind, friction: f64, scale: f64) -> Result<SettingSpec, S
 
 fn with_friction(friction: f64) -> SettingSpec {
     SettingSpec {
-        regime: Regime::LOCOMOTION.with_friction(friction),
+        regime: Regime {
+            friction,
+            ..Regime::LOCOMOTION
+        },
         ..plain(SettingKind::Friction(friction), 3, Role::Keep(HOLDS))
     }
 }
@@ -91,7 +97,10 @@ fn with_scale(scale: f64) -> Result<SettingSpec, SettingError> {
 fn stiff(robot: &LoadedRobot, cycles: usize, role: Role) -> SettingSpec {
     let gain = robot.robot().control.stiff_servo_gain;
     SettingSpec {
-        regime: Regime::LOCOMOTION.with_servo(Servo::Uniform(gain)),
+        regime: Regime {
+            servo: Servo::Uniform(gain),
+            ..Regime::LOCOMOTION
+        },
         ..plain(SettingKind::StiffServos, cycles, role)
     }
 }
@@ -196,15 +205,20 @@ pub fn for_heat(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
 /// law cuts earlier (the NAO's at 3 rad/s) and limbs lag behind the plan: no search of the advance
 /// looks at them.
 pub fn for_confirmation(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
-    let regime = Regime::LOCOMOTION;
     let fine = SettingSpec {
-        regime: regime.with_time_step(0.001),
+        regime: Regime {
+            time_step: 0.001,
+            ..Regime::LOCOMOTION
+        },
         ..plain(SettingKind::FineSteps, 3, Role::Keep(HOLDS))
     };
     let (joints, law) = (&robot.robot().joints, robot.robot().control.servo);
     let speeds = joints.iter().map(|joint| joint.speed_limit);
     let brisk = SettingSpec {
-        regime: regime.with_servo_speed(speeds.fold(law.speed, f64::max)),
+        regime: Regime {
+            servo_speed: Some(speeds.fold(law.speed, f64::max)),
+            ..Regime::LOCOMOTION
+        },
         ..plain(SettingKind::BriskServos, 3, Role::Beside)
     };
     compiled(

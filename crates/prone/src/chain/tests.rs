@@ -127,7 +127,7 @@ fn out_of_reach_and_nan_are_errors() {
         ..PUBLISHED
     };
     let error = stretched.close(nominal(-30.0)).unwrap_err();
-    assert!(matches!(error, ClosureError::OutOfReach { cosine } if cosine > 1.0));
+    assert!(matches!(error, ClosureError { cosine } if cosine > 1.0));
     let folded = GaitParameters {
         knee: 2.6,
         hip: 2.6,

@@ -1,6 +1,6 @@
-//! A price in two parts: what the gait costs, and by how much it breaks the rules.
+//! A cost in two parts: torque, and by how much the gait breaks the rules.
 //!
-//! Prices compare lexicographically (Deb 2000, *An efficient constraint handling method for
+//! Costs compare lexicographically (Deb 2000, *An efficient constraint handling method for
 //! genetic algorithms*): less violation wins, and only between equals less torque. A violation is
 //! graded, as a share of its limit, so that a search knows its way to the feasible gaits:
 //!
@@ -24,7 +24,6 @@
 //!
 //! per phase, or divided by the metres the phase advances.
 
-use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 use crate::chain::{ChainAngles, ClosedChain, ClosureError, GaitParameters};
@@ -119,23 +118,6 @@ impl Violations {
     }
 }
 
-/// What a gait costs and which rules it breaks.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Price {
-    /// The torque part (8); not a number where some sample has no torques.
-    pub torque: f64,
-    /// The rules it breaks.
-    pub violations: Violations,
-}
-
-impl Price {
-    /// Deb's order: violation, then torque.
-    pub fn order(&self, other: &Self) -> Ordering {
-        let violation = self.violations.total().total_cmp(&other.violations.total());
-        violation.then(self.torque.total_cmp(&other.torque))
-    }
-}
-
 /// Which torque part of (8); arrays are in the order of [`JointTorques`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Norm {
@@ -201,6 +183,16 @@ pub enum Per {
     },
 }
 
+impl Per {
+    /// That share of a phase's torque part.
+    pub fn of(self, torque: f64) -> f64 {
+        match self {
+            Self::Phase => torque,
+            Self::Metre { advance } => torque / advance,
+        }
+    }
+}
+
 /// What a gait has to keep to.
 pub struct Rules<Height> {
     /// Height to be kept by whatever `height` measures, m; where it is not positive, none is asked.
@@ -211,7 +203,7 @@ pub struct Rules<Height> {
     pub rate: f64,
 }
 
-/// A phase to be priced.
+/// A phase whose cost is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Phase<'a> {
     /// Gait parameters at equal intervals.
@@ -220,35 +212,22 @@ pub struct Phase<'a> {
     pub interval: f64,
 }
 
-/// Prices a phase.
-pub fn price<Height: Fn(&ChainAngles) -> f64>(
-    chain: &ClosedChain,
-    phase: Phase<'_>,
-    source: &impl TorqueSource,
-    rules: &Rules<Height>,
-    norm: &Norm,
-    per: Per,
-) -> Price {
-    let mut violations = violations(chain, phase, rules);
+/// The torque part (8) of a phase, and in how many samples the source does not know the torques of a
+/// chain that closes (5). It is not a number where some sample has no torques.
+pub fn torque_part(phase: Phase<'_>, source: &impl TorqueSource, norm: &Norm) -> (f64, u32) {
+    let mut gaps = 0;
     let mut torques = Vec::with_capacity(phase.samples.len());
     for &sample in phase.samples {
         match source.torques(sample) {
             Ok(row) => torques.push(row),
             // Graded already, as (3).
             Err(TorqueGap::Closure(_)) => {}
-            Err(_) => violations.add(Rule::Torque, 1.0),
+            Err(_) => gaps += 1,
         }
     }
-    let torque = if torques.len() == phase.samples.len() {
-        norm.of(&torques, phase.interval)
-    } else {
-        f64::NAN
-    };
-    let torque = match per {
-        Per::Phase => torque,
-        Per::Metre { advance } => torque / advance,
-    };
-    Price { torque, violations }
+    let known = torques.len() == phase.samples.len();
+    let torque = known.then(|| norm.of(&torques, phase.interval));
+    (torque.unwrap_or(f64::NAN), gaps)
 }
 
 /// The rules (1) to (4) that the planned chain breaks.
@@ -262,7 +241,7 @@ pub fn violations<Height: Fn(&ChainAngles) -> f64>(
     for &sample in phase.samples {
         let angles = match chain.close(sample) {
             Ok(angles) => angles,
-            Err(ClosureError::OutOfReach { cosine }) => {
+            Err(ClosureError { cosine }) => {
                 violations.add(Rule::Closure, cosine.abs() - 1.0);
                 before = None;
                 continue;
@@ -292,13 +271,8 @@ pub fn violations<Height: Fn(&ChainAngles) -> f64>(
 
 /// Speeds of ankle, knee, hip and shoulder, rad/s.
 fn rates(before: &ChainAngles, after: &ChainAngles, interval: f64) -> [f64; 4] {
-    [
-        after.ankle - before.ankle,
-        after.knee - before.knee,
-        after.hip - before.hip,
-        after.shoulder - before.shoulder,
-    ]
-    .map(|step| step.abs() / interval)
+    let ([_, before @ ..], [_, after @ ..]) = (before.to_array(), after.to_array());
+    std::array::from_fn(|joint| (after[joint] - before[joint]).abs() / interval)
 }
 
 #[cfg(test)]

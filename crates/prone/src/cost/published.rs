@@ -102,13 +102,10 @@ impl PublishedPrice {
 
 /// Why a map cannot serve the published objective.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-pub enum PublishedError {
-    /// A row without torques between rows without torques.
-    #[error("row {row} of the map has no torques, and neither have its theta4 neighbours")]
-    NoNeighbour {
-        /// Its index in the grid's order.
-        row: usize,
-    },
+#[error("row {row} of the map has no torques, and neither have its theta4 neighbours")]
+pub struct PublishedError {
+    /// Index of that row in the grid's order.
+    pub row: usize,
 }
 
 /// The published objective on a table.
@@ -186,7 +183,7 @@ fn without_gaps(map: &TorqueMap) -> Result<Vec<[f64; 4]>, PublishedError> {
                 .or_else(below)
                 .or_else(above)
                 .map(JointTorques::to_array)
-                .ok_or(PublishedError::NoNeighbour { row })
+                .ok_or(PublishedError { row })
         })
         .collect()
 }

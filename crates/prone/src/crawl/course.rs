@@ -2,12 +2,11 @@
 
 use std::sync::Arc;
 
-use crate::gait::cycle::{CycleError, Easing, RecoveryPath};
+use crate::gait::cycle::{CheckedCycle, Easing, RecoveryPath};
 use crate::port::{JointCommand, Knot, Segment};
 use crate::robot::JointAngles;
 
 use super::pilot::Stage;
-use super::planned::Planned;
 
 /// Kind of a phase of a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,40 +29,24 @@ pub(super) enum Course {
     /// A posture that is held.
     Rest { posture: JointAngles, seconds: f64 },
     /// The closed chain of a cycle.
-    Pull(Arc<Planned>),
+    Pull(Arc<CheckedCycle>),
     /// The waypoints of a cycle.
     Recovery { path: RecoveryPath, seconds: f64 },
 }
 
 impl PhaseKind {
     /// The phases of a cycle, in order.
-    pub(super) const fn of(_: &Planned) -> &'static [Self] {
-        &[Self::ClosedChain, Self::Waypoints]
-    }
-
-    /// The phase at whose end the pilot decides: the way back leads to what comes next.
-    pub(super) fn deciding(phases: &[Self]) -> usize {
-        let pull = phases.iter().position(|phase| *phase == Self::ClosedChain);
-        pull.unwrap_or_else(|| phases.len().saturating_sub(1))
-    }
+    pub(super) const ALL: [Self; 2] = [Self::ClosedChain, Self::Waypoints];
 }
 
 impl Course {
-    /// The waypoints that lead from the pull of `from` to the extension of `next`.
-    pub(super) fn recovery(from: &Planned, next: &Planned) -> Result<Self, CycleError> {
-        Ok(Self::Recovery {
-            path: next.checked.recovery_after(&from.checked)?,
-            seconds: next.checked.recovery_seconds(),
-        })
-    }
-
     /// How long it lasts, s.
     pub(super) fn seconds(&self) -> f64 {
         match self {
             Self::Way { seconds, .. }
             | Self::Rest { seconds, .. }
             | Self::Recovery { seconds, .. } => *seconds,
-            Self::Pull(planned) => planned.checked.pull().duration().seconds(),
+            Self::Pull(cycle) => cycle.pull().duration().seconds(),
         }
     }
 
@@ -75,7 +58,7 @@ impl Course {
                 from.towards(to, Easing::Smoothstep.share(time / seconds))
             }
             Self::Rest { posture, .. } => posture.clone(),
-            Self::Pull(planned) => planned.checked.pull_at(time),
+            Self::Pull(cycle) => cycle.pull_at(time),
             Self::Recovery { path, .. } => path.at(time),
         }
     }
@@ -83,11 +66,11 @@ impl Course {
     /// What it is for at that time.
     pub(super) fn stage(&self, time: f64) -> Stage {
         match self {
-            Self::Pull(planned) => {
+            Self::Pull(cycle) => {
                 let s = time.min(self.seconds()) / self.seconds();
                 Stage::Pull {
                     s,
-                    planned_pitch: planned.root_pitch(s),
+                    planned_pitch: cycle.pull().nearest(s).root_pitch,
                 }
             }
             Self::Way { .. } | Self::Rest { .. } | Self::Recovery { .. } => Stage::Recovery,

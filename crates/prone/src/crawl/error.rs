@@ -1,8 +1,8 @@
 //! Why a crawl cannot begin or go on.
 
 use crate::gait::cycle::CycleError;
-use crate::mapping::MappingError;
 
+use super::felt::FeltError;
 use super::pilot::PilotError;
 
 /// Why a crawl cannot begin or go on.
@@ -27,16 +27,6 @@ pub enum CrawlerError {
         /// What is wrong.
         source: Box<CycleError>,
     },
-    /// A cycle's mapping does not fit the robot.
-    #[error("in cycle {cycle} ({gait}): {source}")]
-    Mapping {
-        /// From 1.
-        cycle: usize,
-        /// The cycle's name.
-        gait: String,
-        /// What is wrong.
-        source: MappingError,
-    },
     /// The pilot cannot decide.
     #[error("in cycle {cycle} ({gait}): {source}")]
     Pilot {
@@ -47,47 +37,15 @@ pub enum CrawlerError {
         /// What is wrong.
         source: PilotError,
     },
-    /// The senses' clock goes back, or is none.
-    #[error(
-        "in cycle {cycle} ({gait}): the senses' clock says {time_s} s, which does not follow {before_s} s"
-    )]
-    Time {
+    /// What is felt is nothing that a crawl can go by.
+    #[error("in cycle {cycle} ({gait}): {problem}")]
+    Felt {
         /// From 1.
         cycle: usize,
         /// The cycle's name.
         gait: String,
-        /// Time of the tick before, s.
-        before_s: f64,
-        /// Time of this tick, s.
-        time_s: f64,
-    },
-    /// Nothing was felt for so long that the crawl is not what was planned any more.
-    #[error(
-        "in cycle {cycle} ({gait}): nothing was felt for {seconds} s; at most {longest_s} s may go by"
-    )]
-    Gap {
-        /// From 1.
-        cycle: usize,
-        /// The cycle's name.
-        gait: String,
-        /// Time between two ticks, s.
-        seconds: f64,
-        /// The bound, s.
-        longest_s: f64,
-    },
-    /// The senses' clock stands still.
-    #[error(
-        "in cycle {cycle} ({gait}): the senses' clock has stood at {time_s} s for {ticks} ticks"
-    )]
-    Frozen {
-        /// From 1.
-        cycle: usize,
-        /// The cycle's name.
-        gait: String,
-        /// Where it stands, s.
-        time_s: f64,
-        /// For how many ticks.
-        ticks: usize,
+        /// What is wrong.
+        problem: FeltError,
     },
     /// A joint is measured where it cannot be, before the crawl begins.
     #[error(
@@ -104,16 +62,6 @@ pub enum CrawlerError {
         upper: f64,
         /// How far beyond it may be, rad.
         most: f64,
-    },
-    /// The measured joints are not the robot's, or one of them is not measured.
-    #[error("in cycle {cycle} ({gait}): joint angles are not measured: {problem}")]
-    Angles {
-        /// From 1.
-        cycle: usize,
-        /// The cycle's name.
-        gait: String,
-        /// What is wrong.
-        problem: String,
     },
     /// A share of the joints' speed limits that no crawl can begin with.
     #[error("a share of {share} of the joints' speed limits is outside 0..1")]

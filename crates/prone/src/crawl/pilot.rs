@@ -5,7 +5,7 @@ use crate::port::Senses;
 use crate::robot::Robot;
 use crate::steering::{HeadingHold, TurnTo};
 
-/// Decides at the end of each pull; of a cycle without one, at its end.
+/// Decides at the end of each pull.
 pub trait Pilot {
     /// What comes next.
     ///
@@ -94,46 +94,28 @@ pub struct Straight {
     pub turn: f64,
 }
 
+impl Pilot for Straight {
+    fn decide(&mut self, _: &Moment<'_>) -> Result<Decision, PilotError> {
+        let turn = self.turn;
+        Ok(Decision { cycle: 0, turn })
+    }
+}
+
 /// The same cycle for ever, turned so that the robot keeps to its line.
-#[derive(Debug, Clone, PartialEq)]
-pub struct HoldLine {
-    /// How it is turned.
-    pub hold: HeadingHold,
+impl Pilot for HeadingHold {
+    fn decide(&mut self, now: &Moment<'_>) -> Result<Decision, PilotError> {
+        let bearing = now.senses.bearing.ok_or(PilotError::NoBearing)?;
+        let turn = self.turn(bearing);
+        Ok(Decision { cycle: 0, turn })
+    }
 }
 
 /// The same cycle for ever, turned to a heading.
-#[derive(Debug, Clone, PartialEq)]
-pub struct HoldHeading {
-    /// Where it turns to.
-    pub to: TurnTo,
-}
-
-impl Pilot for Straight {
-    fn decide(&mut self, _: &Moment<'_>) -> Result<Decision, PilotError> {
-        Ok(Decision {
-            cycle: 0,
-            turn: self.turn,
-        })
-    }
-}
-
-impl Pilot for HoldLine {
+impl Pilot for TurnTo {
     fn decide(&mut self, now: &Moment<'_>) -> Result<Decision, PilotError> {
         let bearing = now.senses.bearing.ok_or(PilotError::NoBearing)?;
-        Ok(Decision {
-            cycle: 0,
-            turn: self.hold.turn(bearing),
-        })
-    }
-}
-
-impl Pilot for HoldHeading {
-    fn decide(&mut self, now: &Moment<'_>) -> Result<Decision, PilotError> {
-        let bearing = now.senses.bearing.ok_or(PilotError::NoBearing)?;
-        Ok(Decision {
-            cycle: 0,
-            turn: self.to.turn(bearing),
-        })
+        let turn = self.turn(bearing);
+        Ok(Decision { cycle: 0, turn })
     }
 }
 

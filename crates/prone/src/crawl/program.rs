@@ -1,9 +1,13 @@
 //! What a crawler is asked for, and what comes to pass while it crawls.
 
-use crate::gait::cycle::{Cycle, TimeScale};
+use std::sync::Arc;
+
+use crate::gait::cycle::{CheckedCycle, Cycle, TimeScale};
+use crate::robot::{Range, Robot};
 
 use super::course::PhaseKind;
 use super::error::CrawlerError;
+use super::pilot::Decision;
 use super::timing::Timing;
 
 /// What is crawled.
@@ -73,6 +77,29 @@ pub enum Event {
     CycleEnded,
     /// The crawl has ended; whatever comes next goes on from [`super::Crawler::commanded`].
     Ended(Ended),
+}
+
+impl Program {
+    /// Plans the cycle that was decided for, which is the crawl's `number`th, from 1.
+    pub(super) fn plan(
+        &self,
+        robot: &Robot,
+        stops: &[Range],
+        decision: Decision,
+        number: usize,
+    ) -> Result<Arc<CheckedCycle>, CrawlerError> {
+        let cycle = self.cycles.get(decision.cycle);
+        let cycle = cycle.ok_or(CrawlerError::NoCycle {
+            asked: decision.cycle,
+            cycles: self.cycles.len(),
+        })?;
+        let planned = CheckedCycle::plan(robot, stops, cycle, decision.turn, self.scale);
+        planned.map(Arc::new).map_err(|source| CrawlerError::Cycle {
+            cycle: number,
+            gait: cycle.pull.name.clone(),
+            source: Box::new(source),
+        })
+    }
 }
 
 impl Begin {

@@ -34,23 +34,13 @@ pub struct SlopeAware<P> {
 struct UphillChoice {
     /// Above which slope, rad, the uphill cycle is taken.
     up: f64,
-    /// Below which slope, rad, it is left again.
-    down: f64,
     uphill: bool,
 }
 
 impl UphillChoice {
-    fn new(up: f64) -> Self {
-        Self {
-            up,
-            down: LEAVE * up,
-            uphill: false,
-        }
-    }
-
     fn take(&mut self, slope: f64) {
-        let threshold = if self.uphill { self.down } else { self.up };
-        self.uphill = slope > threshold;
+        let leave = LEAVE * self.up;
+        self.uphill = slope > if self.uphill { leave } else { self.up };
     }
 }
 
@@ -60,7 +50,7 @@ impl<P: Pilot> SlopeAware<P> {
         Self {
             steering,
             filter: None,
-            choice: UphillChoice::new(up),
+            choice: UphillChoice { up, uphill: false },
             sum: 0.0,
             count: 0.0,
             felt: Vec::new(),
@@ -148,7 +138,10 @@ mod tests {
     /// Taken above the threshold, left well below it: in between, whatever was crawled goes on.
     #[test]
     fn the_uphill_cycle_is_taken_late_and_left_late() {
-        let mut choice = UphillChoice::new(10.0);
+        let mut choice = UphillChoice {
+            up: 10.0,
+            uphill: false,
+        };
         let course = [
             (9.9, false),
             (10.1, true),

@@ -132,7 +132,7 @@ fn crawl<P: Pilot>(
     crawler: &mut Crawler<P>,
     mut change: impl FnMut(&mut Senses) -> Sensed,
 ) -> Result<Log, CrawlerError> {
-    let mut angles = crawler.first_pose().posture;
+    let mut angles = crawler.first_pose().joints.clone();
     let mut log = Log {
         commands: Vec::new(),
         events: Vec::new(),
@@ -192,7 +192,7 @@ fn phases_and_cycles_follow_one_another() {
     }
     assert_eq!(crawler.cycles_done(), 2);
     // It ends where it began, and hands over from there.
-    let extension = crawler.first_pose().posture;
+    let extension = crawler.first_pose().joints.clone();
     assert_eq!(crawler.commanded(), Some(&extension));
     assert_eq!(
         crawler.tick(&senses(9.0, &extension)),
@@ -220,7 +220,7 @@ fn set_points_are_those_of_the_planned_pull() {
 fn segments_go_where_set_points_go() {
     let points = crawl(&mut straight(2, AT_ONCE, set_points()), whole).unwrap();
     let mut crawler = straight(2, AT_ONCE, Delivery::Segments { every: EVERY });
-    let extension = crawler.first_pose().posture;
+    let extension = crawler.first_pose().joints.clone();
     let segments = crawl(&mut crawler, whole).unwrap();
     assert_eq!(segments.events, points.events);
     assert_eq!(segments.commands.len(), 4, "one a phase");
@@ -291,7 +291,7 @@ fn a_crawl_stops_after_the_cycle_or_at_once() {
             if tick == 100 {
                 crawler.stop(halt);
             }
-            let angles = crawler.first_pose().posture;
+            let angles = crawler.first_pose().joints.clone();
             let command = crawler.tick(&senses(time, &angles)).unwrap();
             commands.push(command);
             if let Some(ended) = crawler.ended() {
@@ -304,7 +304,7 @@ fn a_crawl_stops_after_the_cycle_or_at_once() {
     let reference = straight(1, AT_ONCE, set_points());
     let (time, posture, _) = stopped_at(Halt::AfterCycle, set_points());
     assert!((time - 1.0).abs() < 1e-9, "{time} s");
-    assert_eq!(posture, reference.first_pose().posture);
+    assert_eq!(posture, reference.first_pose().joints.clone());
     // 0.25 s into the pull, its last set-point is that of 0.25 s.
     for delivery in [set_points(), Delivery::Segments { every: EVERY }] {
         let (time, posture, commands) = stopped_at(Halt::AtOnce, delivery);
@@ -324,7 +324,7 @@ fn a_crawl_stops_after_the_cycle_or_at_once() {
 fn a_crawl_that_is_stopped_before_it_begins_ends_at_its_first_tick() {
     for halt in [Halt::AfterCycle, Halt::AtOnce] {
         let mut crawler = straight(2, AT_ONCE, set_points());
-        let measured = crawler.first_pose().posture;
+        let measured = crawler.first_pose().joints.clone();
         crawler.stop(halt);
         let command = crawler.tick(&senses(3.0, &measured)).unwrap();
         assert_eq!(command, JointCommand::Continue);
@@ -355,7 +355,7 @@ fn a_lying_robot_is_held_where_it_lies_before_it_goes_along_a_path() {
             break;
         }
     }
-    let extension = crawler.first_pose().posture;
+    let extension = crawler.first_pose().joints.clone();
     assert_eq!(commands[0], (0, JointCommand::SetPoint(lying)));
     let (tick, JointCommand::Segment(way)) = &commands[1] else {
         panic!("{commands:?}");
@@ -414,7 +414,7 @@ fn a_lying_robot_goes_to_the_extension_within_its_speeds() {
         }
     }
     assert!(began.unwrap() > 0.5, "{began:?}");
-    assert_eq!(last, crawler.first_pose().posture);
+    assert_eq!(last, crawler.first_pose().joints.clone());
 }
 
 /// Chooses a cycle by number, and remembers what it felt.
@@ -452,7 +452,7 @@ fn the_pilot_decides_once_a_cycle_and_feels_every_tick() {
     };
     let mut crawler = crawler_of(program, pilot);
     let mut names = Vec::new();
-    let mut angles = crawler.first_pose().posture;
+    let mut angles = crawler.first_pose().joints.clone();
     let mut ticks = 0_usize;
     while crawler.ended().is_none() {
         let time = ticks as f64 * TICK;
@@ -490,7 +490,10 @@ fn an_error_names_the_cycle_that_it_is_about() {
 #[test]
 fn limit_senses_that_are_none() {
     let robot = robot();
-    let good = straight(1, AT_ONCE, set_points()).first_pose().posture;
+    let good = straight(1, AT_ONCE, set_points())
+        .first_pose()
+        .joints
+        .clone();
     let short = JointAngles::from_fn(3, |_| 0.0);
     let mut unknown = good.clone();
     unknown[robot.chain.left.knee] = f64::NAN;
@@ -514,20 +517,36 @@ fn limit_senses_that_are_none() {
 
 #[test]
 fn limit_a_clock_that_leaps_or_stands_still() {
-    let good = straight(1, AT_ONCE, set_points()).first_pose().posture;
+    let good = straight(1, AT_ONCE, set_points())
+        .first_pose()
+        .joints
+        .clone();
     let mut crawler = straight(1, AT_ONCE, set_points());
     crawler.tick(&senses(0.5, &good)).unwrap();
     crawler.tick(&senses(0.59, &good)).unwrap();
     let error = crawler.tick(&senses(0.7, &good)).unwrap_err();
     assert!(
-        matches!(error, CrawlerError::Gap { cycle: 1, .. }),
+        matches!(
+            error,
+            CrawlerError::Felt {
+                cycle: 1,
+                problem: FeltError::Gap { .. },
+                ..
+            }
+        ),
         "{error}"
     );
 
     let mut crawler = straight(1, AT_ONCE, set_points());
     let error = (0..1000).find_map(|_| crawler.tick(&senses(0.5, &good)).err());
     assert!(
-        matches!(error, Some(CrawlerError::Frozen { ticks: 41, .. })),
+        matches!(
+            error,
+            Some(CrawlerError::Felt {
+                problem: FeltError::Frozen { ticks: 41, .. },
+                ..
+            })
+        ),
         "{error:?}"
     );
 }
@@ -562,9 +581,7 @@ fn limit_a_beginning_beyond_a_stop() {
 
 #[test]
 fn who_follows_a_line_needs_a_bearing() {
-    let hold = || HoldLine {
-        hold: HeadingHold::new(two_armed().control.steering, 0.2),
-    };
+    let hold = || HeadingHold::new(two_armed().control.steering, 0.2);
     let program = program(&[cycle("only")], 2, AT_ONCE, set_points());
     let error = crawl(&mut crawler_of(program.clone(), hold()), whole).err();
     assert!(

@@ -8,37 +8,26 @@
 
 /// A smooth function of the phase.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Curve(Form);
-
-#[derive(Debug, Clone, PartialEq)]
-enum Form {
-    /// Coefficients, highest power first.
-    Polynomial(Vec<f64>),
-    BSpline {
-        degree: usize,
-        control: Vec<f64>,
-    },
-    /// Points (s, value) and the second derivative at each.
-    Interpolating {
-        points: Vec<(f64, f64)>,
-        curvature: Vec<f64>,
-    },
+pub struct Curve {
+    form: CurveForm,
+    /// Second derivative at each point of [`CurveForm::Through`]; other forms have none.
+    curvature: Vec<f64>,
 }
 
 /// The numbers that a curve was made of.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum CurveForm<'a> {
+#[derive(Debug, Clone, PartialEq)]
+pub enum CurveForm {
     /// Coefficients, highest power first.
-    Polynomial(&'a [f64]),
+    Polynomial(Vec<f64>),
     /// A clamped uniform B-spline.
     BSpline {
         /// Its degree.
         degree: usize,
         /// Its control points.
-        control: &'a [f64],
+        control: Vec<f64>,
     },
     /// A natural cubic spline through points (s, value).
-    Through(&'a [(f64, f64)]),
+    Through(Vec<(f64, f64)>),
 }
 
 /// Why numbers do not make a curve.
@@ -122,19 +111,19 @@ impl Curve {
         if coefficients.is_empty() {
             return Err(CurveError::NoCoefficients);
         }
-        Ok(Self(Form::Polynomial(coefficients)))
+        Ok(Self::from_form(CurveForm::Polynomial(coefficients)))
+    }
+
+    const fn from_form(form: CurveForm) -> Self {
+        Self {
+            form,
+            curvature: Vec::new(),
+        }
     }
 
     /// What it was made of.
-    pub fn form(&self) -> CurveForm<'_> {
-        match &self.0 {
-            Form::Polynomial(coefficients) => CurveForm::Polynomial(coefficients),
-            Form::BSpline { degree, control } => CurveForm::BSpline {
-                degree: *degree,
-                control,
-            },
-            Form::Interpolating { points, .. } => CurveForm::Through(points),
-        }
+    pub const fn form(&self) -> &CurveForm {
+        &self.form
     }
 
     /// A clamped uniform B-spline.
@@ -149,7 +138,7 @@ impl Curve {
                 control: control.len(),
             });
         }
-        Ok(Self(Form::BSpline { degree, control }))
+        Ok(Self::from_form(CurveForm::BSpline { degree, control }))
     }
 
     /// A natural cubic spline through points (s, value).
@@ -181,16 +170,21 @@ impl Curve {
             let (from, to) = steepest(&points);
             return Err(CurveError::Steep { from, to });
         }
-        Ok(Self(Form::Interpolating { points, curvature }))
+        Ok(Self {
+            form: CurveForm::Through(points),
+            curvature,
+        })
     }
 
     /// The value at phase `s`; phases outside [0, 1] are held at the ends.
     pub fn value(&self, s: f64) -> f64 {
         let s = if s.is_nan() { s } else { s.clamp(0.0, 1.0) };
-        match &self.0 {
-            Form::Polynomial(coefficients) => coefficients.iter().fold(0.0, |sum, c| sum * s + c),
-            Form::BSpline { degree, control } => de_boor(*degree, control, s),
-            Form::Interpolating { points, curvature } => interpolate(points, curvature, s),
+        match &self.form {
+            CurveForm::Polynomial(coefficients) => {
+                coefficients.iter().fold(0.0, |sum, c| sum * s + c)
+            }
+            CurveForm::BSpline { degree, control } => de_boor(*degree, control, s),
+            CurveForm::Through(points) => interpolate(points, &self.curvature, s),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! From a gait to joint angles that have been checked against a robot's limits.
 
 use super::{Gait, LimitsPolicy};
-use crate::chain::{ChainAngles, ChainPosture, ClosureError};
+use crate::chain::{ChainAngles, ChainPosture};
 use crate::mapping::{Mapping, MappingError};
 use crate::robot::{JointAngles, JointId, Range, Robot};
 
@@ -54,6 +54,8 @@ pub struct Sample {
     pub chain: ChainAngles,
     /// Its joint centres.
     pub posture: ChainPosture,
+    /// Turn of the root about +y, rad, with which the chain lies on a level floor.
+    pub root_pitch: f64,
     /// Joint angles within the stops.
     pub joints: JointAngles,
 }
@@ -108,9 +110,9 @@ pub enum TrajectoryError {
         /// How many joints it has.
         joints: usize,
     },
-    /// The chain does not close somewhere.
+    /// The chain does not close somewhere, or the forearm cannot be pointed.
     #[error("gait {gait}, sample {sample} (s = {s:.3}): {source}")]
-    Closure {
+    OutOfReach {
         /// The gait's name.
         gait: String,
         /// The sample, from 0.
@@ -118,7 +120,7 @@ pub enum TrajectoryError {
         /// Its phase.
         s: f64,
         /// What is out of reach.
-        source: ClosureError,
+        source: MappingError,
     },
     /// A joint centre of the planned chain would lie below the floor.
     #[error(
@@ -135,18 +137,6 @@ pub enum TrajectoryError {
         s: f64,
         /// How far below, mm.
         depth_mm: f64,
-    },
-    /// The forearm cannot be pointed somewhere.
-    #[error("gait {gait}, sample {sample} (s = {s:.3}): {source}")]
-    Forearm {
-        /// The gait's name.
-        gait: String,
-        /// The sample, from 0.
-        sample: usize,
-        /// Its phase.
-        s: f64,
-        /// What is out of reach.
-        source: MappingError,
     },
     /// A joint passes its limit and the gait's policy is to refuse.
     #[error(
@@ -216,13 +206,14 @@ impl CheckedTrajectory {
         let mut clamps: Vec<Clamp> = Vec::new();
         for sample in 0..=intervals {
             let s = sample as f64 / intervals as f64;
-            let closure = |source| TrajectoryError::Closure {
+            let out_of_reach = |source| TrajectoryError::OutOfReach {
                 gait: gait.name.clone(),
                 sample,
                 s,
                 source,
             };
-            let chain = mapping.chain().close(gait.parameters(s)).map_err(closure)?;
+            let chain = mapping.chain().close(gait.parameters(s));
+            let chain = chain.map_err(|open| out_of_reach(open.into()))?;
             let posture = mapping.chain().posture(&chain);
             if let Some((centre, height)) = below_floor(&posture) {
                 return Err(TrajectoryError::BelowFloor {
@@ -236,12 +227,7 @@ impl CheckedTrajectory {
             let company = company(s);
             let mut joints = mapping
                 .spread_joint_angles(robot, &chain, company.spread)
-                .map_err(|source| TrajectoryError::Forearm {
-                    gait: gait.name.clone(),
-                    sample,
-                    s,
-                    source,
-                })?;
+                .map_err(out_of_reach)?;
             for (id, angle) in company.joints {
                 joints[id] = angle;
             }
@@ -264,13 +250,14 @@ impl CheckedTrajectory {
                         excess: excess.abs(),
                     });
                 }
-                joints[id] = angle.clamp(stop.lower, stop.upper);
+                joints[id] = stop.clamp(angle);
                 note(&mut clamps, id, excess, s);
             }
             samples.push(Sample {
                 s,
                 chain,
                 posture,
+                root_pitch: mapping.root_pitch(&chain),
                 joints,
             });
         }
@@ -292,21 +279,42 @@ impl CheckedTrajectory {
         &self.samples
     }
 
+    /// The first sample.
+    pub fn first(&self) -> &Sample {
+        &self.samples[0]
+    }
+
+    /// The last sample.
+    pub fn last(&self) -> &Sample {
+        &self.samples[self.samples.len() - 1]
+    }
+
     /// Joint angles at phase `s` ∈ [0, 1], rad, between samples on the straight line.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "between 0 and the number of samples; NaN becomes 0"
+    )]
     pub fn at(&self, s: f64) -> JointAngles {
-        let last = self.samples.len() - 1;
-        let place = s.clamp(0.0, 1.0) * last as f64;
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "between 0 and the number of samples; NaN becomes 0"
-        )]
-        let before = (place as usize).min(last.saturating_sub(1));
-        let (from, to) = (
-            &self.samples[before].joints,
-            &self.samples[last.min(before + 1)].joints,
-        );
+        let place = self.place(s);
+        let before = (place as usize).min(self.samples.len() - 2);
+        let [from, to] = [before, before + 1].map(|sample| &self.samples[sample].joints);
         from.towards(to, place - before as f64)
+    }
+
+    /// The sample that is nearest to phase `s` ∈ [0, 1].
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "between 0 and the number of samples; NaN becomes 0"
+    )]
+    pub fn nearest(&self, s: f64) -> &Sample {
+        &self.samples[self.place(s).round() as usize]
+    }
+
+    /// Where phase `s` lies among the samples, counted from the first.
+    fn place(&self, s: f64) -> f64 {
+        s.clamp(0.0, 1.0) * (self.samples.len() - 1) as f64
     }
 
     /// What was clamped, by joint.

@@ -3,6 +3,7 @@
 use glam::{DQuat, DVec3};
 
 use crate::chain::ClosedChain;
+use crate::robot::mirror::mirrored_axis;
 use crate::robot::{JointId, Robot, SideLayout};
 
 /// One side's sagittal chain at zero joint angles, in the root frame.
@@ -80,14 +81,8 @@ impl SideGeometry {
     /// [`GeometryError`] where the limbs form no sagittal chain.
     pub fn from_layout(robot: &Robot, side: &SideLayout) -> Result<Self, GeometryError> {
         let poses = robot.zero_pose();
-        let centre = |id: JointId| {
-            let joint = &robot.joints[id.0];
-            poses.point((joint.body, joint.anchor)).metres()
-        };
-        let axis = |id: JointId| {
-            let joint = &robot.joints[id.0];
-            poses.of(joint.body).rotate(joint.axis)
-        };
+        let centre = |id: JointId| poses.anchor(&robot.joints[id.0]).metres();
+        let axis = |id: JointId| poses.axis(&robot.joints[id.0]);
 
         let mut pitch_signs = [0.0; 4];
         for (sign, id) in pitch_signs.iter_mut().zip(side.pitch_joints()) {
@@ -146,11 +141,7 @@ impl SideGeometry {
         }
         Ok(Self {
             links,
-            zero_angles: [
-                absolute[1] - absolute[0],
-                absolute[2] - absolute[1],
-                absolute[3] - absolute[2],
-            ],
+            zero_angles: std::array::from_fn(|i| absolute[i + 1] - absolute[i]),
             trunk_zero: absolute[3],
             pitch_signs,
             shoulder_axis: axis(side.shoulder),
@@ -215,15 +206,9 @@ impl SideGeometry {
     }
 
     /// What the other side's forearm joints are multiplied by in a mirrored pose.
-    ///
-    /// A mirror in the sagittal plane turns an axis (x, y, z) of rotation into (−x, y, −z).
     pub(super) fn mirror_signs(&self, other: &Self) -> [f64; 2] {
-        let mirrored = |axis: DVec3| DVec3::new(-axis.x, axis.y, -axis.z);
-        [0, 1].map(|i| {
-            mirrored(self.forearm_axes[i])
-                .dot(other.forearm_axes[i])
-                .signum()
-        })
+        let sign = |i| mirrored_axis(self.forearm_axes[i]).dot(other.forearm_axes[i]);
+        [0, 1].map(|i| sign(i).signum())
     }
 }
 

@@ -16,39 +16,12 @@ const TOLERANCE: f64 = 1e-6;
 
 const POINTS: [&str; 6] = ["toe", "ankle", "knee", "hip", "shoulder", "elbow"];
 
-/// Arbitrary postures and forearm angles, rad. None is zero and no two are equal, so that a joint
+/// Arbitrary postures, θ1 to θ5, and forearm angles, rad. None is zero and no two are equal, so that a joint
 /// that moves the wrong part shows.
-const PROBES: [(ChainAngles, [f64; 2]); 3] = [
-    (
-        ChainAngles {
-            toe: 0.9,
-            ankle: -1.3,
-            knee: 0.4,
-            hip: 0.25,
-            shoulder: -1.1,
-        },
-        [0.6, -0.8],
-    ),
-    (
-        ChainAngles {
-            toe: 0.3,
-            ankle: -0.6,
-            knee: 0.85,
-            hip: -0.35,
-            shoulder: -2.0,
-        },
-        [-1.2, 0.5],
-    ),
-    (
-        ChainAngles {
-            toe: 1.4,
-            ankle: -2.1,
-            knee: -0.2,
-            hip: 0.7,
-            shoulder: -0.5,
-        },
-        [0.9, 1.3],
-    ),
+const PROBES: [([f64; 5], [f64; 2]); 3] = [
+    ([0.9, -1.3, 0.4, 0.25, -1.1], [0.6, -0.8]),
+    ([0.3, -0.6, 0.85, -0.35, -2.0], [-1.2, 0.5]),
+    ([1.4, -2.1, -0.2, 0.7, -0.5], [0.9, 1.3]),
 ];
 
 /// Compares the robot's limbs with its exact planar chain in a few postures, on both sides.
@@ -58,6 +31,7 @@ const PROBES: [(ChainAngles, [f64; 2]); 3] = [
 pub fn check_kinematics(robot: &Robot) -> Result<(), MappingError> {
     let mapping = Mapping::new(robot, MappingVariant::Exact, ArmMode::FlatForearm)?;
     for (chain, forearm) in PROBES {
+        let chain = ChainAngles::from_array(chain);
         let poses = grounded(robot, &mapping, &chain, forearm);
         let planar = mapping.chain().posture(&chain).points();
         for (side, layout) in ["left", "right"].into_iter().zip(robot.chain.sides()) {
@@ -100,10 +74,7 @@ fn grounded(
 
 /// Toe to elbow, as in [`crate::chain::ChainPosture::points`].
 fn points(robot: &Robot, poses: &BodyPoses<Ground>, side: &SideLayout) -> [Point<Ground>; 6] {
-    let centre = |id: JointId| {
-        let joint = &robot.joints[id.0];
-        poses.point((joint.body, joint.anchor))
-    };
+    let centre = |id: JointId| poses.anchor(&robot.joints[id.0]);
     [
         poses.point(side.toe),
         centre(side.ankle),

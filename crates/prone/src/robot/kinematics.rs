@@ -5,7 +5,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::{BodyId, JointAngles, Robot};
+use super::{BodyId, Joint, JointAngles, Robot};
 use crate::frames::{Frame, Link, Point, Root, Transform};
 
 /// The pose of every body in frame `F`, in the order of [`Robot::bodies`].
@@ -26,6 +26,16 @@ impl<F: Frame> BodyPoses<F> {
     /// A point of a body, in `F`.
     pub fn point(&self, (body, point): (BodyId, Point<Link>)) -> Point<F> {
         *self.of(body) * point
+    }
+
+    /// The anchor of a joint, in `F`.
+    pub fn anchor(&self, joint: &Joint) -> Point<F> {
+        self.point((joint.body, joint.anchor))
+    }
+
+    /// The unit axis of a joint, in `F`.
+    pub fn axis(&self, joint: &Joint) -> DVec3 {
+        self.of(joint.body).rotate(joint.axis)
     }
 }
 

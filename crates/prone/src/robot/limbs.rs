@@ -5,10 +5,7 @@
 
 use std::fmt;
 
-use glam::DVec3;
-
-use super::{BodyId, JointAngles, JointId, Robot, SideLayout};
-use crate::frames::{Root, Transform};
+use super::{BodyId, JointId, Robot, SideLayout};
 
 /// A side of the robot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -109,102 +106,20 @@ impl fmt::Display for ChainPart {
 pub fn check_limbs(robot: &Robot) -> Result<(), LimbError> {
     let [left, right] = robot.chain.sides();
     let sides = [(ChainSide::Left, left), (ChainSide::Right, right)];
-    check_distinct(&sides)?;
+    check_distinct(sides)?;
+    // The joints are distinct, so each moves another body; a point may be on the last one's.
     for (side, layout) in sides {
-        for limb in limbs(robot, layout) {
-            check_order(robot, side, &limb)?;
-        }
-    }
-    check_sides(robot)
-}
-
-const fn joints(side: &SideLayout) -> [(ChainPart, JointId); 7] {
-    let [upper, lower] = side.forearm;
-    [
-        (ChainPart::Ankle, side.ankle),
-        (ChainPart::Knee, side.knee),
-        (ChainPart::Hip, side.hip),
-        (ChainPart::Shoulder, side.shoulder),
-        (ChainPart::ShoulderRoll, side.shoulder_roll),
-        (ChainPart::UpperForearm, upper),
-        (ChainPart::LowerForearm, lower),
-    ]
-}
-
-fn check_distinct(sides: &[(ChainSide, &SideLayout); 2]) -> Result<(), LimbError> {
-    let mut seen: Vec<(ChainSide, ChainPart, JointId)> = Vec::new();
-    for (side, layout) in sides {
-        for (part, joint) in joints(layout) {
-            if let Some(&(first_side, first_part, _)) =
-                seen.iter().find(|(.., other)| *other == joint)
-            {
-                return Err(LimbError::Twice {
-                    joint,
-                    side: *side,
-                    part,
-                    first_side,
-                    first_part,
-                });
-            }
-            seen.push((*side, part, joint));
-        }
-    }
-    Ok(())
-}
-
-/// Leg, arm and forearm: parts with the body that each moves or is fixed to, from the trunk on.
-fn limbs(robot: &Robot, side: &SideLayout) -> [Vec<(ChainPart, BodyId)>; 3] {
-    let moved = |part, joint: JointId| (part, robot.joints[joint.0].body);
-    let [upper, lower] = side.forearm;
-    let roll = moved(ChainPart::ShoulderRoll, side.shoulder_roll);
-    [
-        vec![
-            moved(ChainPart::Hip, side.hip),
-            moved(ChainPart::Knee, side.knee),
-            moved(ChainPart::Ankle, side.ankle),
-            (ChainPart::Toe, side.toe.0),
-        ],
-        vec![
-            moved(ChainPart::Shoulder, side.shoulder),
-            roll,
-            (ChainPart::Elbow, side.elbow.0),
-        ],
-        vec![
-            roll,
-            moved(ChainPart::UpperForearm, upper),
-            moved(ChainPart::LowerForearm, lower),
-        ],
-    ]
-}
-
-/// The joints are distinct, so each moves another body; a point may be on the last one's.
-fn check_order(
-    robot: &Robot,
-    side: ChainSide,
-    limb: &[(ChainPart, BodyId)],
-) -> Result<(), LimbError> {
-    for pair in limb.windows(2) {
-        let [(inner, ancestor), (outer, body)] = *pair else {
-            continue;
-        };
-        if !robot.moves_with(body, ancestor) {
+        let body = |part| body_of(robot, layout, part);
+        if let Some(&(outer, inner)) = HANGS_ON
+            .iter()
+            .find(|&&(outer, inner)| !robot.moves_with(body(outer), body(inner)))
+        {
             return Err(LimbError::Loose { side, outer, inner });
         }
     }
-    Ok(())
-}
-
-/// y is to the left.
-fn check_sides(robot: &Robot) -> Result<(), LimbError> {
-    let poses = robot.forward_kinematics(
-        Transform::<Root, Root>::translation(DVec3::ZERO),
-        &JointAngles::zero(robot),
-    );
-    let sideways = |id: JointId| {
-        let joint = &robot.joints[id.0];
-        poses.point((joint.body, joint.anchor)).metres().y
-    };
-    let [left, right] = robot.chain.sides();
+    // y is to the left.
+    let poses = robot.zero_pose();
+    let sideways = |id: JointId| poses.anchor(&robot.joints[id.0]).metres().y;
     for (part, left, right) in [
         (ChainPart::Hip, left.hip, right.hip),
         (ChainPart::Shoulder, left.shoulder, right.shoulder),
@@ -214,6 +129,65 @@ fn check_sides(robot: &Robot) -> Result<(), LimbError> {
         }
     }
     Ok(())
+}
+
+/// The parts of [`SideLayout::commanded_joints`].
+const COMMANDED: [ChainPart; 7] = [
+    ChainPart::Ankle,
+    ChainPart::Knee,
+    ChainPart::Hip,
+    ChainPart::Shoulder,
+    ChainPart::ShoulderRoll,
+    ChainPart::UpperForearm,
+    ChainPart::LowerForearm,
+];
+
+/// Leg, arm and forearm, from the trunk on: each part and the one that it moves with.
+const HANGS_ON: [(ChainPart, ChainPart); 7] = [
+    (ChainPart::Knee, ChainPart::Hip),
+    (ChainPart::Ankle, ChainPart::Knee),
+    (ChainPart::Toe, ChainPart::Ankle),
+    (ChainPart::ShoulderRoll, ChainPart::Shoulder),
+    (ChainPart::Elbow, ChainPart::ShoulderRoll),
+    (ChainPart::UpperForearm, ChainPart::ShoulderRoll),
+    (ChainPart::LowerForearm, ChainPart::UpperForearm),
+];
+
+fn check_distinct(sides: [(ChainSide, &SideLayout); 2]) -> Result<(), LimbError> {
+    let mut seen: Vec<(ChainSide, ChainPart, JointId)> = Vec::new();
+    for (side, layout) in sides {
+        for (part, joint) in COMMANDED.into_iter().zip(layout.commanded_joints()) {
+            if let Some(&(first_side, first_part, _)) =
+                seen.iter().find(|(.., other)| *other == joint)
+            {
+                return Err(LimbError::Twice {
+                    joint,
+                    side,
+                    part,
+                    first_side,
+                    first_part,
+                });
+            }
+            seen.push((side, part, joint));
+        }
+    }
+    Ok(())
+}
+
+/// The body that a part is fixed to, or that its joint moves.
+fn body_of(robot: &Robot, side: &SideLayout, part: ChainPart) -> BodyId {
+    let joint = match part {
+        ChainPart::Toe => return side.toe.0,
+        ChainPart::Elbow => return side.elbow.0,
+        ChainPart::Ankle => side.ankle,
+        ChainPart::Knee => side.knee,
+        ChainPart::Hip => side.hip,
+        ChainPart::Shoulder => side.shoulder,
+        ChainPart::ShoulderRoll => side.shoulder_roll,
+        ChainPart::UpperForearm => side.forearm[0],
+        ChainPart::LowerForearm => side.forearm[1],
+    };
+    robot.joints[joint.0].body
 }
 
 #[cfg(test)]

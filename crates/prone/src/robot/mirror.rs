@@ -8,7 +8,6 @@
 use glam::DVec3;
 
 use super::{JointAngles, JointId, Robot};
-use crate::frames::{Root, Transform};
 
 /// How far a mirrored hinge may miss its twin, m and as a sine: rounding in a model file.
 const TOLERANCE: f64 = 1e-6;
@@ -26,32 +25,22 @@ pub struct Twin {
     pub sign: f64,
 }
 
-/// A hinge in the root frame.
-struct Hinge {
-    anchor: DVec3,
-    axis: DVec3,
-}
-
 impl Mirror {
     /// Finds the twins of a robot's joints.
     pub fn of(robot: &Robot) -> Self {
-        let poses = robot.forward_kinematics(
-            Transform::<Root, Root>::translation(DVec3::ZERO),
-            &JointAngles::zero(robot),
-        );
-        let hinges: Vec<Hinge> = robot
-            .joints
-            .iter()
-            .map(|joint| Hinge {
-                anchor: poses.point((joint.body, joint.anchor)).metres(),
-                axis: poses.of(joint.body).rotate(joint.axis),
-            })
+        let poses = robot.zero_pose();
+        let hinges = robot.joints.iter();
+        let hinges: Vec<(DVec3, DVec3)> = hinges
+            .map(|joint| (poses.anchor(joint).metres(), poses.axis(joint)))
             .collect();
-        let twin = |hinge: &Hinge| {
-            let place = hinges.iter().position(|other| coincide(hinge, other))?;
+        let twin = |&(anchor, axis): &(DVec3, DVec3)| {
+            let (anchor, axis) = (mirrored_point(anchor), mirrored_axis(axis));
+            let place = hinges.iter().position(|other| {
+                axis.cross(other.1).length() < TOLERANCE && (other.0 - anchor).length() < TOLERANCE
+            })?;
             Some(Twin {
                 joint: JointId(place),
-                sign: mirrored(hinge).axis.dot(hinges[place].axis).signum(),
+                sign: axis.dot(hinges[place].1).signum(),
             })
         };
         Self(hinges.iter().map(twin).collect())
@@ -74,24 +63,20 @@ impl Mirror {
     }
 }
 
-fn mirrored(hinge: &Hinge) -> Hinge {
-    let (p, a) = (hinge.anchor, hinge.axis);
-    Hinge {
-        anchor: DVec3::new(p.x, -p.y, p.z),
-        axis: DVec3::new(-a.x, a.y, -a.z),
-    }
+/// The mirror image of a point or a direction.
+pub(crate) const fn mirrored_point(point: DVec3) -> DVec3 {
+    DVec3::new(point.x, -point.y, point.z)
 }
 
-/// Whether one hinge's mirror image is the other.
-fn coincide(hinge: &Hinge, other: &Hinge) -> bool {
-    let image = mirrored(hinge);
-    image.axis.cross(other.axis).length() < TOLERANCE
-        && (other.anchor - image.anchor).length() < TOLERANCE
+/// The mirror image of an axis of rotation.
+pub(crate) const fn mirrored_axis(axis: DVec3) -> DVec3 {
+    DVec3::new(-axis.x, axis.y, -axis.z)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::frames::{Root, Transform};
     use crate::robot::testing;
 
     #[test]

@@ -85,29 +85,30 @@ impl Robot {
     /// Height above the floor of the highest point of the shapes that `wanted` selects, metres;
     /// −∞ where it selects none.
     pub fn top(&self, poses: &BodyPoses<Ground>, wanted: impl Fn(&Shape) -> bool) -> f64 {
-        self.shapes
-            .iter()
-            .filter(|shape| wanted(shape))
-            .map(|shape| shape.reach_along(poses.of(shape.body), DVec3::Z))
-            .fold(f64::NEG_INFINITY, f64::max)
+        self.reach_of(poses, DVec3::Z, wanted)
     }
 
     /// How far the robot reaches along a unit direction of the ground frame, m from its origin.
     pub fn reach(&self, poses: &BodyPoses<Ground>, direction: DVec3) -> f64 {
-        self.shapes
-            .iter()
-            .map(|shape| shape.reach_along(poses.of(shape.body), direction))
-            .fold(f64::NEG_INFINITY, f64::max)
+        self.reach_of(poses, direction, |_| true)
     }
 
     /// Height above the floor of the lowest point of the shapes that `wanted` selects, metres; ∞
     /// where it selects none.
     pub fn bottom(&self, poses: &BodyPoses<Ground>, wanted: impl Fn(&Shape) -> bool) -> f64 {
-        self.shapes
-            .iter()
-            .filter(|shape| wanted(shape))
-            .map(|shape| -shape.reach_along(poses.of(shape.body), DVec3::NEG_Z))
-            .fold(f64::INFINITY, f64::min)
+        -self.reach_of(poses, DVec3::NEG_Z, wanted)
+    }
+
+    fn reach_of(
+        &self,
+        poses: &BodyPoses<Ground>,
+        direction: DVec3,
+        wanted: impl Fn(&Shape) -> bool,
+    ) -> f64 {
+        let shapes = self.shapes.iter().filter(|shape| wanted(shape));
+        shapes
+            .map(|shape| shape.reach_along(poses.of(shape.body), direction))
+            .fold(f64::NEG_INFINITY, f64::max)
     }
 }
 

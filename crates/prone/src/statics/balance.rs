@@ -41,7 +41,7 @@ pub(super) struct Equilibrium {
 /// A touching point.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Contact {
-    /// The shape's place in the half robot.
+    /// Index in [`crate::robot::Robot::shapes`].
     pub(super) shape: usize,
     /// In the root frame.
     pub(super) point: DVec3,
@@ -225,12 +225,8 @@ impl Body<'_> {
         let down = down(touch.pitch);
         let shape = self.parts[touch.part].shape;
         let (mut sum, mut count) = (DVec3::ZERO, 0.0);
-        for (index, part) in self
-            .parts
-            .iter()
-            .enumerate()
-            .filter(|(_, part)| part.shape == shape)
-        {
+        let parts = self.parts.iter().enumerate();
+        for (index, part) in parts.filter(|(_, part)| part.shape == shape) {
             let other = self.touch(index, touch.pitch);
             let same_place = (other.ahead - touch.ahead).abs() < LEVEL
                 && (other.height - touch.height).abs() < LEVEL;

@@ -1,7 +1,6 @@
 //! One half of a mirrored robot: what is on its middle plane, and one of each pair of limbs.
 //!
-//! The mirror M in the sagittal plane negates y of points and directions; of a rotation's axis it
-//! negates x and z instead. A joint about a, mirrored by a joint about a', holds
+//! The mirror is that of [`crate::robot::mirror`]. A joint about a, mirrored by a joint about a', holds
 //!
 //! ```text
 //! q' = s q,   s = (−a_x, a_y, −a_z)·a' = ±1                                    (1)
@@ -16,7 +15,8 @@ use glam::{DQuat, DVec3};
 use super::outline::Part;
 use super::{RestError, SupportRule};
 use crate::frames::{Link, Point, Root, Transform};
-use crate::robot::{BodyId, BodyPoses, ContactGroup, JointAngles, JointId, Robot, Shape};
+use crate::robot::mirror::{mirrored_axis, mirrored_point};
+use crate::robot::{BodyId, BodyPoses, JointAngles, JointId, Robot, Shape};
 
 /// How far two joints may be from mirroring each other, rad; their mean is used. The published
 /// gaits press both ankles of a NAO against their stops, which are 0.003 rad apart.
@@ -39,27 +39,17 @@ const PROBES: [DVec3; 6] = [
 #[derive(Debug, Clone, PartialEq)]
 pub struct HalfRobot {
     pub(super) bodies: Vec<HalfBody>,
-    pub(super) joints: Vec<JointPair>,
-    shapes: Vec<HalfShape>,
     parts: Vec<Part>,
     /// Place in `bodies` of each of the robot's, on either side.
     place: Vec<usize>,
-    /// Joints of the whole robot.
-    joint_count: usize,
-    mass: f64,
 }
 
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct HalfBody {
-    id: BodyId,
+    pub(super) id: BodyId,
     /// Place in the half; `None` for the root.
     pub(super) parent: Option<usize>,
-    parent_from_body: Transform<Link, Link>,
-    /// Place in [`HalfRobot::joints`].
-    pub(super) joint: Option<usize>,
-    /// Of this one body, kg.
-    pub(super) mass: f64,
-    pub(super) centre_of_mass: Point<Link>,
+    pub(super) joint: Option<JointPair>,
     /// 2 for one of a pair, 1 on the middle plane.
     pub(super) copies: f64,
     /// Whether it hangs on the forearm's hinges.
@@ -73,33 +63,17 @@ pub(super) struct JointPair {
     pub(super) mirror: JointId,
     /// s of equation (1).
     pub(super) sign: f64,
-    pub(super) axis: DVec3,
-    pub(super) anchor: Point<Link>,
-}
-
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct HalfShape {
-    pub(super) index: usize,
-    pub(super) body: BodyId,
-    /// Place in [`HalfRobot::bodies`].
-    pub(super) place: usize,
-    pub(super) group: ContactGroup,
-    pub(super) group_column: usize,
-    pub(super) is_head: bool,
 }
 
 /// Poses of the half's bodies in the root.
 pub(super) struct HalfPose(pub(super) Vec<Transform<Root, Link>>);
 
-/// Why a robot is no mirrored one.
+/// A robot is no mirrored one: a body has no counterpart of the same mass, place, joint and shapes.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum SymmetryError {
-    /// A body without a counterpart of the same mass, place, joint and shapes.
-    #[error("body {body} has no mirror image among the robot's bodies; statics needs one")]
-    NoMirror {
-        /// Its name.
-        body: String,
-    },
+#[error("body {body} has no mirror image among the robot's bodies; statics needs one")]
+pub struct SymmetryError {
+    /// Its name.
+    pub body: String,
 }
 
 impl HalfRobot {
@@ -111,20 +85,15 @@ impl HalfRobot {
         let zero = robot.zero_pose();
         let mut half = Self {
             bodies: Vec::new(),
-            joints: Vec::new(),
-            shapes: Vec::new(),
             parts: Vec::new(),
             place: vec![usize::MAX; robot.bodies.len()],
-            joint_count: robot.joints.len(),
-            mass: robot.mass(),
         };
         let mut mirror: Vec<BodyId> = Vec::with_capacity(robot.bodies.len());
         for index in 0..robot.bodies.len() {
             let id = BodyId(index);
-            let image =
-                mirror_image(robot, &zero, id, &mirror).ok_or_else(|| SymmetryError::NoMirror {
-                    body: robot.bodies[index].name.clone(),
-                })?;
+            let image = mirror_image(robot, &zero, id, &mirror).ok_or_else(|| SymmetryError {
+                body: robot.bodies[index].name.clone(),
+            })?;
             mirror.push(image);
             if index <= image.0 {
                 half.keep(robot, &zero, id, image);
@@ -137,69 +106,32 @@ impl HalfRobot {
 
     fn keep(&mut self, robot: &Robot, zero: &BodyPoses<Root>, id: BodyId, image: BodyId) {
         let body = &robot.bodies[id.0];
-        let place = self.bodies.len();
-        self.place[id.0] = place;
-        let joint = body
-            .joint
-            .zip(robot.bodies[image.0].joint)
-            .map(|(this, mirror)| {
-                let joint = &robot.joints[this.0];
-                self.joints.push(JointPair {
-                    this,
-                    mirror,
-                    sign: mirror_sign(robot, zero, this, mirror),
-                    axis: joint.axis,
-                    anchor: joint.anchor,
-                });
-                self.joints.len() - 1
-            });
+        self.place[id.0] = self.bodies.len();
+        let joints = body.joint.zip(robot.bodies[image.0].joint);
         self.bodies.push(HalfBody {
             id,
             parent: body.parent.map(|parent| self.place[parent.0]),
-            parent_from_body: body.parent_from_body,
-            joint,
-            mass: body.mass,
-            centre_of_mass: body.centre_of_mass,
+            joint: joints.map(|(this, mirror)| JointPair {
+                this,
+                mirror,
+                sign: mirror_sign(robot, zero, this, mirror),
+            }),
             copies: if id == image { 1.0 } else { 2.0 },
             beyond_elbow: is_beyond_elbow(robot, id),
         });
         for (index, shape) in shapes_of(robot, id) {
-            let kept = self.shapes.len();
-            self.parts.extend(Part::of(shape, kept));
-            self.shapes.push(HalfShape {
-                index,
-                body: id,
-                place,
-                group: body.contact_group,
-                group_column: body.contact_group as usize,
-                is_head: body.is_head,
-            });
+            self.parts.extend(Part::from_shape(shape, index));
         }
     }
 
-    /// Mass of the whole robot, kg.
-    pub(super) const fn mass(&self) -> f64 {
-        self.mass
+    /// Place in `bodies` of one of the robot's, on either side.
+    pub(super) fn place(&self, body: BodyId) -> usize {
+        self.place[body.0]
     }
 
-    pub(super) const fn joint_count(&self) -> usize {
-        self.joint_count
-    }
-
-    pub(super) fn shape(&self, place: usize) -> &HalfShape {
-        &self.shapes[place]
-    }
-
-    /// Whether a body of either side hangs on the forearm's hinges.
-    pub(super) fn is_beyond_elbow(&self, body: BodyId) -> bool {
-        self.bodies[self.place[body.0]].beyond_elbow
-    }
-
-    pub(super) fn may_carry(&self, part: &Part, rule: SupportRule) -> bool {
-        match rule {
-            SupportRule::AnyShape => true,
-            SupportRule::ElbowNotHand => !self.bodies[self.shapes[part.shape].place].beyond_elbow,
-        }
+    pub(super) fn may_carry(&self, robot: &Robot, part: &Part, rule: SupportRule) -> bool {
+        let place = self.place(robot.shapes[part.shape].body);
+        rule == SupportRule::AnyShape || !self.bodies[place].beyond_elbow
     }
 
     /// Forward kinematics of the half, the root at the origin.
@@ -208,14 +140,14 @@ impl HalfRobot {
         for body in &self.bodies {
             let parent = match body.parent {
                 None => Transform::translation(DVec3::ZERO),
-                Some(parent) => poses[parent] * body.parent_from_body,
+                Some(parent) => poses[parent] * robot.bodies[body.id.0].parent_from_body,
             };
-            poses.push(match body.joint {
+            poses.push(match &body.joint {
                 None => parent,
-                Some(joint) => {
-                    let pair = &self.joints[joint];
-                    let turn = DQuat::from_axis_angle(pair.axis, pair.angle(robot, angles)?);
-                    let anchor = pair.anchor.metres();
+                Some(pair) => {
+                    let joint = &robot.joints[pair.this.0];
+                    let turn = DQuat::from_axis_angle(joint.axis, pair.angle(robot, angles)?);
+                    let anchor = joint.anchor.metres();
                     parent * Transform::<Link, Link>::new(turn, anchor - turn * anchor)
                 }
             });
@@ -224,27 +156,30 @@ impl HalfRobot {
     }
 
     /// All parts in the root frame.
-    pub(super) fn parts(&self, pose: &HalfPose) -> Vec<Part> {
-        let placed = |part: &Part| part.placed(&pose.0[self.shapes[part.shape].place]);
+    pub(super) fn parts(&self, robot: &Robot, pose: &HalfPose) -> Vec<Part> {
+        let placed = |part: &Part| part.placed(&pose.0[self.place(robot.shapes[part.shape].body)]);
         self.parts.iter().map(placed).collect()
     }
 
     /// Centre of mass of the whole robot.
-    pub(super) fn centre_of_mass(&self, pose: &HalfPose) -> Point<Root> {
+    pub(super) fn centre_of_mass(&self, robot: &Robot, pose: &HalfPose) -> Point<Root> {
         let moment: DVec3 = self
             .bodies
             .iter()
             .zip(&pose.0)
-            .map(|(body, pose)| body.copies * body.mass * (*pose * body.centre_of_mass).metres())
+            .map(|(half, pose)| {
+                let body = &robot.bodies[half.id.0];
+                half.copies * body.mass * (*pose * body.centre_of_mass).metres()
+            })
             .sum();
-        Point::new(DVec3::new(moment.x, 0.0, moment.z) / self.mass)
+        Point::new(DVec3::new(moment.x, 0.0, moment.z) / robot.mass())
     }
 }
 
 impl HalfPose {
     /// A point of a body of either side, in the half.
     pub(super) fn point(&self, half: &HalfRobot, (body, point): (BodyId, Point<Link>)) -> DVec3 {
-        (self.0[half.place[body.0]] * point).metres()
+        (self.0[half.place(body)] * point).metres()
     }
 }
 
@@ -279,31 +214,24 @@ fn mirror_image(
     })
 }
 
-fn mirrored(point: DVec3) -> DVec3 {
-    DVec3::new(point.x, -point.y, point.z)
-}
-
 fn mirrors(robot: &Robot, zero: &BodyPoses<Root>, id: BodyId, other: BodyId) -> bool {
     let [this, that] = [id, other].map(|id| &robot.bodies[id.0]);
     let centre = |id: BodyId| zero.point((id, robot.bodies[id.0].centre_of_mass)).metres();
     let same_mass = (this.mass - that.mass).abs() < SAME
-        && (mirrored(centre(id)) - centre(other)).length() < SAME;
+        && (mirrored_point(centre(id)) - centre(other)).length() < SAME;
     let same_joint = match (this.joint, that.joint) {
         (None, None) => true,
         (Some(a), Some(b)) => {
-            let anchor = |id: JointId| {
-                let joint = &robot.joints[id.0];
-                zero.point((joint.body, joint.anchor)).metres()
-            };
+            let anchor = |id: JointId| zero.anchor(&robot.joints[id.0]).metres();
             let parallel = mirror_sign(robot, zero, a, b).abs() > 1.0 - SAME;
-            parallel && (mirrored(anchor(a)) - anchor(b)).length() < SAME
+            parallel && (mirrored_point(anchor(a)) - anchor(b)).length() < SAME
         }
         _ => false,
     };
     let alike = |shape: &Shape, candidate: &Shape| {
         PROBES.iter().all(|&probe| {
             let reach = shape.reach_along(zero.of(id), probe);
-            (reach - candidate.reach_along(zero.of(other), mirrored(probe))).abs() < SAME
+            (reach - candidate.reach_along(zero.of(other), mirrored_point(probe))).abs() < SAME
         })
     };
     let same_shapes = shapes_of(robot, id).count() == shapes_of(robot, other).count()
@@ -314,11 +242,8 @@ fn mirrors(robot: &Robot, zero: &BodyPoses<Root>, id: BodyId, other: BodyId) -> 
 
 /// Equation (1), rounded to ±1 where the axes mirror each other.
 fn mirror_sign(robot: &Robot, zero: &BodyPoses<Root>, this: JointId, that: JointId) -> f64 {
-    let [a, b] = [this, that].map(|id| {
-        let joint = &robot.joints[id.0];
-        zero.of(joint.body).rotate(joint.axis)
-    });
-    let cosine = DVec3::new(-a.x, a.y, -a.z).dot(b);
+    let [a, b] = [this, that].map(|id| zero.axis(&robot.joints[id.0]));
+    let cosine = mirrored_axis(a).dot(b);
     if cosine.abs() > 1.0 - SAME {
         cosine.signum()
     } else {
@@ -327,11 +252,8 @@ fn mirror_sign(robot: &Robot, zero: &BodyPoses<Root>, this: JointId, that: Joint
 }
 
 fn shapes_of(robot: &Robot, body: BodyId) -> impl Iterator<Item = (usize, &Shape)> {
-    robot
-        .shapes
-        .iter()
-        .enumerate()
-        .filter(move |(_, shape)| shape.body == body)
+    let shapes = robot.shapes.iter().enumerate();
+    shapes.filter(move |(_, shape)| shape.body == body)
 }
 
 /// Whether a body hangs on the forearm's hinges.

@@ -15,6 +15,7 @@ use glam::DVec3;
 use super::balance::{Equilibrium, down, forward};
 use super::half::{HalfPose, HalfRobot};
 use super::{Footing, GRAVITY};
+use crate::robot::Robot;
 
 /// A force and its moment about the root's origin, in the root frame.
 #[derive(Debug, Clone, Copy)]
@@ -46,14 +47,19 @@ impl Wrench {
 }
 
 /// Equation (2) for every joint of the whole robot, N·m.
-pub(super) fn loads(half: &HalfRobot, pose: &HalfPose, wrenches: &[Wrench]) -> Vec<f64> {
-    let mut load = vec![0.0; half.joint_count()];
+pub(super) fn loads(
+    robot: &Robot,
+    half: &HalfRobot,
+    pose: &HalfPose,
+    wrenches: &[Wrench],
+) -> Vec<f64> {
+    let mut load = vec![0.0; robot.joints.len()];
     for ((body, pose), wrench) in half.bodies.iter().zip(&pose.0).zip(wrenches) {
-        if let Some(joint) = body.joint {
-            let pair = &half.joints[joint];
-            let anchor = (*pose * pair.anchor).metres();
+        if let Some(pair) = &body.joint {
+            let joint = &robot.joints[pair.this.0];
+            let anchor = (*pose * joint.anchor).metres();
             let about_axis = pose
-                .rotate(pair.axis)
+                .rotate(joint.axis)
                 .dot(wrench.moment - anchor.cross(wrench.force));
             load[pair.mirror.0] = pair.sign * about_axis;
             load[pair.this.0] = about_axis;
@@ -65,6 +71,7 @@ pub(super) fn loads(half: &HalfRobot, pose: &HalfPose, wrenches: &[Wrench]) -> V
 /// Equation (1): what each body of the half and all beyond it carry; for the root, nothing is
 /// left over.
 pub(super) fn wrenches(
+    robot: &Robot,
     half: &HalfRobot,
     pose: &HalfPose,
     found: &Equilibrium,
@@ -76,12 +83,13 @@ pub(super) fn wrenches(
         .iter()
         .zip(&pose.0)
         .map(|(body, pose)| {
+            let body = &robot.bodies[body.id.0];
             let weight = body.mass * GRAVITY * down;
             Wrench::of(weight, (*pose * body.centre_of_mass).metres())
         })
         .collect();
     for (contact, support) in found.contacts.iter().zip(footing.supports()) {
-        let place = half.shape(contact.shape).place;
+        let place = half.place(robot.shapes[contact.shape].body);
         let share = 1.0 / half.bodies[place].copies;
         let force = support.forward * forward - support.reaction * down;
         wrenches[place].join(Wrench::of(share * force, contact.point));

@@ -18,7 +18,7 @@ use crate::robot::{Shape, Solid};
 /// One part of a shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Part {
-    /// The shape's place in the half robot.
+    /// Index in [`crate::robot::Robot::shapes`].
     pub(super) shape: usize,
     centre: DVec3,
     bulge: Bulge,
@@ -35,7 +35,7 @@ enum Bulge {
 
 impl Part {
     /// The parts of a shape in its body's frame.
-    pub(super) fn of(shape: &Shape, index: usize) -> Vec<Self> {
+    pub(super) fn from_shape(shape: &Shape, index: usize) -> Vec<Self> {
         let axes = DMat3::from_quat(shape.link_from_geom.rotation());
         let origin = shape.link_from_geom.origin().metres();
         let part = |offset: DVec3, bulge: Bulge| Self {
@@ -155,7 +155,7 @@ mod tests {
                 Transform::<Root, Link>::new(DQuat::from_axis_angle(towards, 1.0), axis);
             let down = (axis + 2.0 * towards).normalize();
             let parts: Vec<_> =
-                Part::of(&shape, 0).iter().map(|part| part.placed(&root_from_link)).collect();
+                Part::from_shape(&shape, 0).iter().map(|part| part.placed(&root_from_link)).collect();
             let reach = parts.iter().map(|part| part.reach(down)).fold(f64::MIN, f64::max);
             prop_assert!((reach - shape.reach_along(&root_from_link, down)).abs() < 1e-12);
             for part in parts {

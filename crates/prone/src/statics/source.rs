@@ -81,10 +81,7 @@ impl<R: Borrow<Robot>> StaticTorques<R> {
                 joints: count,
             }));
         }
-        Ok(joints.map(|joint, angle| {
-            let stop = self.stops[joint.0];
-            angle.clamp(stop.lower, stop.upper)
-        }))
+        Ok(joints.within(&self.stops))
     }
 
     /// All that is known of a posture at rest.

@@ -10,27 +10,6 @@ use crate::chain::GaitParameters;
 
 use super::{EDGE_TOLERANCE, TorqueGap};
 
-/// Which of the three gait parameters an axis carries.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum AxisName {
-    /// θ3.
-    Knee,
-    /// θ4.
-    Hip,
-    /// α.
-    UpperArm,
-}
-
-impl std::fmt::Display for AxisName {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Knee => "theta3",
-            Self::Hip => "theta4",
-            Self::UpperArm => "alpha",
-        })
-    }
-}
-
 /// Equally spaced values, ascending, rad.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Axis {
@@ -133,15 +112,6 @@ pub struct Grid {
     pub upper_arm: Axis,
 }
 
-/// A cell of a grid and the place inside it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Cell {
-    /// Lower corner: node along θ3, θ4, α.
-    node: [usize; 3],
-    /// Place between lower and upper corner along θ3, θ4, α, each 0 to 1.
-    place: [f64; 3],
-}
-
 impl Grid {
     /// Number of nodes.
     #[expect(
@@ -179,11 +149,11 @@ impl Grid {
         })
     }
 
-    /// The cell around a posture.
+    /// The eight corners of the cell around a posture and their weights, which sum to 1.
     ///
     /// # Errors
     /// [`TorqueGap::Outside`] beyond [`EDGE_TOLERANCE`]; NaN is outside.
-    pub fn locate(&self, at: GaitParameters) -> Result<Cell, TorqueGap> {
+    pub fn corners(&self, at: GaitParameters) -> Result<[(usize, f64); 8], TorqueGap> {
         let along = |name, axis: &Axis, value| {
             axis.locate(value).ok_or(TorqueGap::Outside {
                 axis: name,
@@ -192,30 +162,22 @@ impl Grid {
                 high: axis.high,
             })
         };
-        let (knee, u) = along(AxisName::Knee, &self.knee, at.knee)?;
-        let (hip, v) = along(AxisName::Hip, &self.hip, at.hip)?;
-        let (arm, w) = along(AxisName::UpperArm, &self.upper_arm, at.upper_arm)?;
-        Ok(Cell {
-            node: [knee, hip, arm],
-            place: [u, v, w],
-        })
-    }
-
-    /// The eight corners of a cell and their weights, which sum to 1.
-    pub fn corners(&self, cell: &Cell) -> [(usize, f64); 8] {
-        let [knee, hip, arm] = cell.node;
-        std::array::from_fn(|corner| {
+        let (knee, u) = along("theta3", &self.knee, at.knee)?;
+        let (hip, v) = along("theta4", &self.hip, at.hip)?;
+        let (arm, w) = along("alpha", &self.upper_arm, at.upper_arm)?;
+        let place = [u, v, w];
+        Ok(std::array::from_fn(|corner| {
             let upper = [corner & 1, (corner >> 1) & 1, (corner >> 2) & 1];
             let weight = (0..3)
                 .map(|axis| match upper[axis] {
-                    1 => cell.place[axis],
-                    _ => 1.0 - cell.place[axis],
+                    1 => place[axis],
+                    _ => 1.0 - place[axis],
                 })
                 .product();
             (
                 self.index(knee + upper[0], hip + upper[1], arm + upper[2]),
                 weight,
             )
-        })
+        }))
     }
 }

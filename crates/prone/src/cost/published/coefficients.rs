@@ -26,12 +26,6 @@ impl Coefficients {
         ])
     }
 
-    /// How far the curves miss the end, the largest of the three, rad.
-    pub fn end_error(&self) -> f64 {
-        let misses = (0..3).map(|i| (START[i] + self.0[i].iter().sum::<f64>() - END[i]).abs());
-        misses.fold(0.0, f64::max)
-    }
-
     /// By how much the coefficients leave ±`bound`, summed; zero inside.
     pub fn outside(&self, bound: f64) -> f64 {
         self.0

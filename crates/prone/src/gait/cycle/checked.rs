@@ -61,12 +61,12 @@ impl CheckedCycle {
 
     /// The posture in which the pull begins.
     pub fn extension(&self) -> &JointAngles {
-        &self.pull.samples()[0].joints
+        &self.pull.first().joints
     }
 
     /// The posture in which the pull ends.
     pub fn compression(&self) -> &JointAngles {
-        last(&self.pull)
+        &self.pull.last().joints
     }
 
     /// The closed-chain phase.
@@ -81,11 +81,8 @@ impl CheckedCycle {
 
     /// How long the recovery lasts, s.
     pub fn recovery_seconds(&self) -> f64 {
-        let times = self
-            .stretches
-            .iter()
-            .map(|stretch| stretch.approach.seconds);
-        times.sum()
+        let stretches = self.stretches.iter();
+        stretches.map(|stretch| stretch.approach.seconds).sum()
     }
 
     /// Names of the recovery's stretches, each with the time at which it ends, s.
@@ -127,8 +124,7 @@ impl CheckedCycle {
                 None => now,
                 // At the first waypoint the arms are still planted where the last turn has put them.
                 Some(to) if index == 0 && self.stretches.len() > 1 => {
-                    let stop = self.stops[joint.0];
-                    (to + previous.aside[joint.0]).clamp(stop.lower, stop.upper)
+                    self.stops[joint.0].clamp(to + previous.aside[joint.0])
                 }
                 Some(to) => to,
             });
@@ -233,9 +229,4 @@ impl RecoveryPath {
         }
         from.clone()
     }
-}
-
-pub(super) fn last(pull: &CheckedTrajectory) -> &JointAngles {
-    let samples = pull.samples();
-    &samples[samples.len() - 1].joints
 }

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::super::trajectory::{Company, note};
-use super::super::{CheckedTrajectory, Clamp, Curve, LimitsPolicy, PhaseDuration};
-use super::checked::{Stretch, last};
-use super::{Approach, CheckedCycle, Cycle, CycleError, FastestJoint, Steering, TimeScale};
+use super::super::{CheckedTrajectory, Clamp, LimitsPolicy, PhaseDuration};
+use super::checked::Stretch;
+use super::{Approach, CheckedCycle, Cycle, CycleError, FastestJoint, TimeScale};
 use crate::robot::{JointId, Mirror, Range, Robot, SideLayout};
 
 /// Time between two samples of a planned pull, s: commands in between are interpolated.
@@ -43,7 +43,8 @@ impl CheckedCycle {
         stretches.push(Stretch {
             name: "extension".to_owned(),
             approach: planner.scaled("extension", cycle.approach, scale)?,
-            targets: pull.samples()[0]
+            targets: pull
+                .first()
                 .joints
                 .as_slice()
                 .iter()
@@ -72,10 +73,7 @@ impl CheckedCycle {
                 .collect(),
         };
         checked.fastest = checked.pull_speed()?;
-        let recovery = checked.recovery_speed(&checked.path(&checked))?;
-        if recovery.share() > checked.fastest.share() {
-            checked.fastest = recovery;
-        }
+        checked.fastest = checked.recovery_speed(&checked.path(&checked))?;
         Ok(checked)
     }
 }
@@ -89,11 +87,8 @@ struct Planner<'a> {
 
 impl Planner<'_> {
     fn check_turn(&self, turn: f64) -> Result<(), CycleError> {
-        let limit = self
-            .cycle
-            .steering
-            .as_ref()
-            .map_or(0.0, |steering| steering.limit);
+        let steering = self.cycle.steering.as_ref();
+        let limit = steering.map_or(0.0, |steering| steering.limit);
         // NaN is no turn either.
         if turn.abs() <= limit {
             return Ok(());
@@ -106,46 +101,22 @@ impl Planner<'_> {
     }
 
     fn pull(&self, duration: PhaseDuration, turn: f64) -> Result<CheckedTrajectory, CycleError> {
-        let chain = self.robot.chain.sides().map(SideLayout::commanded_joints);
-        let outside = |place: &str, joint: JointId| {
-            if chain.iter().flatten().any(|&id| id == joint) {
-                return Err(CycleError::ChainJoint {
-                    cycle: self.cycle.pull.name.clone(),
-                    place: place.to_owned(),
-                    joint: self.robot.joints[joint.0].name.clone(),
-                });
-            }
-            Ok(joint)
-        };
-        let mut company: Vec<(JointId, f64, &Curve)> = Vec::new();
-        for (joint, sign, curve) in self.with_twins("pull", &self.cycle.company)? {
-            company.push((outside("pull", joint)?, sign, curve));
+        let company = self.with_twins("pull", &self.cycle.company)?;
+        for &(joint, ..) in &company {
+            self.check_outside_chain("pull", joint)?;
         }
-        let mut swing: Vec<(JointId, f64)> = Vec::new();
-        let mut spread = 0.0;
-        if let Some(Steering {
-            spread: k, joints, ..
-        }) = &self.cycle.steering
-        {
-            spread = *k;
-            for (name, &factor) in joints {
-                swing.push((outside("steering", self.joint("steering", name)?)?, factor));
-            }
-        }
+        let swing = self.swing()?;
+        let steering = self.cycle.steering.as_ref();
+        let spread = steering.map_or(0.0, |steering| steering.spread);
         let at = |s: f64| {
             let asymmetry = turn * (1.0 - 2.0 * s);
-            let along = company
-                .iter()
-                .map(|&(joint, sign, curve)| (joint, sign * curve.value(s)));
-            let mut joints: Vec<_> = along.collect();
-            joints.extend(
-                swing
-                    .iter()
-                    .map(|&(joint, factor)| (joint, factor * asymmetry)),
-            );
+            let along = company.iter();
+            let along = along.map(|&(joint, sign, curve)| (joint, sign * curve.value(s)));
+            let swing = swing.iter();
+            let swing = swing.map(|&(joint, factor)| (joint, factor * asymmetry));
             Company {
                 spread: [spread * asymmetry, -spread * asymmetry],
-                joints,
+                joints: along.chain(swing).collect(),
             }
         };
         let gait = &self.cycle.pull;
@@ -153,6 +124,29 @@ impl Planner<'_> {
         Ok(CheckedTrajectory::plan_in_company(
             self.robot, self.stops, gait, duration, intervals, at,
         )?)
+    }
+
+    /// The joints that the steering moves, with their factors of the turn.
+    fn swing(&self) -> Result<Vec<(JointId, f64)>, CycleError> {
+        let named = self.cycle.steering.iter().flat_map(|it| &it.joints);
+        let swing = named.map(|(name, &factor)| {
+            let joint = self.joint("steering", name)?;
+            self.check_outside_chain("steering", joint)?;
+            Ok((joint, factor))
+        });
+        swing.collect()
+    }
+
+    fn check_outside_chain(&self, place: &str, joint: JointId) -> Result<(), CycleError> {
+        let chain = self.robot.chain.sides().map(SideLayout::commanded_joints);
+        if !chain.iter().flatten().any(|&id| id == joint) {
+            return Ok(());
+        }
+        Err(CycleError::ChainJoint {
+            cycle: self.cycle.pull.name.clone(),
+            place: place.to_owned(),
+            joint: self.robot.joints[joint.0].name.clone(),
+        })
     }
 
     /// By how much a turn moves each joint at the end of the pull, rad; 0 for the joints that the
@@ -167,12 +161,10 @@ impl Planner<'_> {
             return Ok(vec![0.0; self.robot.joints.len()]);
         }
         let straight = self.pull(duration, 0.0)?;
-        let pairs = last(pull).pairs(last(&straight));
+        let pairs = pull.last().joints.pairs(&straight.last().joints);
         let mut aside: Vec<f64> = pairs.map(|(turned, straight)| turned - straight).collect();
-        if let Some(steering) = &self.cycle.steering {
-            for name in steering.joints.keys() {
-                aside[self.joint("steering", name)?.0] = 0.0;
-            }
+        for (joint, _) in self.swing()? {
+            aside[joint.0] = 0.0;
         }
         Ok(aside)
     }
@@ -186,10 +178,10 @@ impl Planner<'_> {
         for (index, waypoint) in self.cycle.recovery.iter().enumerate() {
             let place = format!("waypoint {}", waypoint.name);
             let mut targets = vec![None; self.robot.joints.len()];
-            if let (0, Some(steering)) = (index, &self.cycle.steering) {
+            if index == 0 {
                 // A turn's joints go back.
-                for name in steering.joints.keys() {
-                    targets[self.joint("steering", name)?.0] = Some(0.0);
+                for (joint, _) in self.swing()? {
+                    targets[joint.0] = Some(0.0);
                 }
             }
             for (joint, sign, &angle) in self.with_twins(&place, &waypoint.joints)? {
@@ -228,7 +220,7 @@ impl Planner<'_> {
             });
         }
         note(clamps, id, excess, 1.0);
-        Ok(angle.clamp(stop.lower, stop.upper))
+        Ok(stop.clamp(angle))
     }
 
     fn scaled(

@@ -2,7 +2,6 @@
 
 use std::fmt::Write as _;
 
-use crate::chain::ChainAngles;
 use crate::mapping::Mapping;
 use crate::robot::Robot;
 
@@ -31,14 +30,7 @@ pub fn write(
         let node = grid.node(index);
         let mut numbers = [f64::NAN; COLUMNS.len()];
         if let Ok(chain) = mapping.chain().close(node) {
-            let ChainAngles {
-                toe,
-                ankle,
-                knee,
-                hip,
-                shoulder,
-            } = chain;
-            numbers[..5].copy_from_slice(&[toe, ankle, knee, hip, shoulder]);
+            numbers[..UPPER_ARM].copy_from_slice(&chain.to_array());
             if let Ok(joints) = mapping.joint_angles(robot, &chain) {
                 let angles = robot.chain.right.pitch_joints().map(|joint| joints[joint]);
                 numbers[ANKLE_JOINT..FIRST_TORQUE].copy_from_slice(&angles);

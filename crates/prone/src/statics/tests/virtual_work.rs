@@ -1,4 +1,6 @@
-//! Loads by virtual work: the second route to the torques of [`super::rest`].
+//! Loads by virtual work: the second route to the torques of [`prone::statics::rest`].
+//!
+//! Tests of `prone` and of `prone-sim` share this file.
 //!
 //! A joint and its mirror image turn by ±δ; the robot comes to rest anew, so that its supports
 //! stay on the floor: the displacement keeps the chain closed. On a floor without friction the
@@ -12,15 +14,13 @@
 //! H is the height of the centre of mass at rest, L the distance of the two material points that
 //! touch in the undisturbed pose, S the squeeze. This route shares nothing with the other one but
 //! the robot and the squeezed points: full forward kinematics, the shapes' own support functions,
-//! a golden-section search for H. It is slow, and meant for tests and for doubts.
+//! a golden-section search for H. It is slow.
 
 use glam::DVec3;
 
-use super::balance::{down, forward};
-use super::half::HalfRobot;
-use super::{Footing, GRAVITY, Rest, RestError, Stance, SupportRule, rest};
-use crate::frames::{Link, Point, Root, Transform};
-use crate::robot::{BodyId, BodyPoses, JointAngles, Robot, Shape};
+use prone::frames::{Link, Point, Root, Transform};
+use prone::robot::{BodyId, BodyPoses, JointAngles, JointId, Mirror, Robot, Shape};
+use prone::statics::{Footing, GRAVITY, HalfRobot, Rest, RestError, Stance, SupportRule, rest};
 
 /// Displacement δ, rad: the error of a central difference, about δ² of the load, and that of
 /// rounding, about 1e-16 m · G / δ, are both near 1e-9 N·m.
@@ -33,33 +33,49 @@ const PITCH_WINDOW: f64 = 1e-3;
 const SECTIONS: usize = 75;
 
 /// The load of every joint, N·m, in the order of [`Robot::joints`].
-///
-/// # Errors
-/// [`RestError`].
-pub fn loads(
+pub(crate) fn loads(
     robot: &Robot,
     half: &HalfRobot,
     angles: &JointAngles,
     stance: Stance,
 ) -> Result<Vec<f64>, RestError> {
     let undisturbed = rest(robot, half, angles, stance)?;
-    let energy = Energy::new(robot, half, stance, &undisturbed, angles);
-    let mut loads = vec![0.0; robot.joints.len()];
-    for pair in &half.joints {
-        let mut displaced = [angles.clone(), angles.clone()];
-        for (angles, delta) in displaced.iter_mut().zip([DISPLACEMENT, -DISPLACEMENT]) {
-            angles[pair.this] += delta;
-            if pair.mirror != pair.this {
-                angles[pair.mirror] += pair.sign * delta;
+    let energy = Energy::new(robot, stance, &undisturbed, angles);
+    let mirror = Mirror::of(robot);
+    let load = |joint: JointId| {
+        let twin = mirror
+            .twin(joint)
+            .expect("statics has found the robot symmetric");
+        let [after, before] = [DISPLACEMENT, -DISPLACEMENT].map(|delta| {
+            let mut displaced = angles.clone();
+            displaced[joint] += delta;
+            if twin.joint != joint {
+                displaced[twin.joint] += twin.sign * delta;
             }
-        }
-        let [after, before] = displaced.map(|angles| energy.at(&angles));
-        let copies = if pair.mirror == pair.this { 1.0 } else { 2.0 };
-        let load = -(after - before) / (2.0 * DISPLACEMENT) / copies;
-        loads[pair.mirror.0] = pair.sign * load;
-        loads[pair.this.0] = load;
-    }
-    Ok(loads)
+            energy.at(&displaced)
+        });
+        let copies = if twin.joint == joint { 1.0 } else { 2.0 };
+        -(after - before) / (2.0 * DISPLACEMENT) / copies
+    };
+    Ok((0..robot.joints.len()).map(JointId).map(load).collect())
+}
+
+/// Pitch of the root about +y, rad.
+pub(crate) fn pitch(rest: &Rest) -> f64 {
+    let forward = rest.ground_from_root.rotate(DVec3::X);
+    (-forward.z).atan2(forward.x)
+}
+
+/// d of the statics' header.
+fn down(pitch: f64) -> DVec3 {
+    let (sin, cos) = pitch.sin_cos();
+    DVec3::new(sin, 0.0, -cos)
+}
+
+/// e of the statics' header.
+fn forward(pitch: f64) -> DVec3 {
+    let (sin, cos) = pitch.sin_cos();
+    DVec3::new(cos, 0.0, sin)
 }
 
 /// V of equation (1).
@@ -73,13 +89,7 @@ struct Energy<'r> {
 }
 
 impl<'r> Energy<'r> {
-    fn new(
-        robot: &'r Robot,
-        half: &HalfRobot,
-        stance: Stance,
-        undisturbed: &Rest,
-        angles: &JointAngles,
-    ) -> Self {
+    fn new(robot: &'r Robot, stance: Stance, undisturbed: &Rest, angles: &JointAngles) -> Self {
         let poses = robot.forward_kinematics(undisturbed.ground_from_root, angles);
         let squeezed = match undisturbed.footing {
             Footing::One(_) => None,
@@ -92,12 +102,16 @@ impl<'r> Energy<'r> {
         };
         let may_carry = |shape: &&Shape| match stance.supports {
             SupportRule::AnyShape => true,
-            SupportRule::ElbowNotHand => !half.is_beyond_elbow(shape.body),
+            SupportRule::ElbowNotHand => !robot
+                .chain
+                .sides()
+                .iter()
+                .any(|side| robot.moves_with(shape.body, robot.joints[side.forearm[0].0].body)),
         };
         Self {
             robot,
             carriers: robot.shapes.iter().filter(may_carry).collect(),
-            pitch: undisturbed.pitch(),
+            pitch: pitch(undisturbed),
             squeeze: stance.squeeze,
             squeezed,
         }
