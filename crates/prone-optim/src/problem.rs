@@ -10,9 +10,6 @@ pub trait Problem: Sync {
     fn bounds(&self) -> &[Interval];
 
     /// The score of a point, or why it has none. Depends on nothing but the point.
-    ///
-    /// # Errors
-    /// [`Failure`].
     fn evaluate(&self, point: &[f64]) -> Result<Score, Failure>;
 }
 

@@ -106,9 +106,6 @@ pub trait Sense {
 /// Something whose joints can be commanded.
 pub trait Command {
     /// Hands over a command, and returns before it is carried out.
-    ///
-    /// # Errors
-    /// [`PortError`].
     fn command(&mut self, command: &JointCommand) -> Result<(), PortError>;
 }
 
@@ -122,9 +119,6 @@ pub trait Pace {
     fn tick(&self) -> f64;
 
     /// Returns when the next tick has come: a simulation computes it, a robot is waited for.
-    ///
-    /// # Errors
-    /// [`PortError`].
     fn wait(&mut self) -> Result<(), PortError>;
 }
 
@@ -133,9 +127,6 @@ pub trait Stop {
     /// Ends whatever path is being followed: every joint holds the last angle that it was sent. A
     /// posture under load sags below its set-point, so that commanding what is measured would lower
     /// the robot with every call; this may be called at any time, and a second call changes nothing.
-    ///
-    /// # Errors
-    /// [`PortError`].
     fn stop(&mut self) -> Result<(), PortError>;
 }
 

@@ -156,9 +156,6 @@ pub enum RestError {
 ///
 /// The tilt starts where toe and elbow are level, so the robot comes to rest as it would from its
 /// crawling pose.
-///
-/// # Errors
-/// [`RestError`].
 pub fn rest(
     robot: &Robot,
     half: &HalfRobot,

@@ -50,9 +50,6 @@ impl Objective {
     }
 
     /// The norm on a robot, for the right side, whose torques are recorded.
-    ///
-    /// # Errors
-    /// [`NoMotor`].
     pub fn norm(&self, robot: &Robot) -> Result<Norm, NoMotor> {
         let joints = robot.chain.right.pitch_joints();
         let joints = joints.map(|id| &robot.joints[id.0]);

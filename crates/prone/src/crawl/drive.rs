@@ -52,9 +52,6 @@ const SAME_TICK: f64 = 1e-9;
 ///
 /// On an error the port is stopped, as far as it still can be; the first error is returned. A port of
 /// other ticks than the crawler's is an error before anything moves.
-///
-/// # Errors
-/// [`DriveError`].
 pub fn drive<D, P>(
     port: &mut D,
     crawler: &mut Crawler<P>,

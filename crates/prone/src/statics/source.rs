@@ -85,9 +85,6 @@ impl<R: Borrow<Robot>> StaticTorques<R> {
     }
 
     /// All that is known of a posture at rest.
-    ///
-    /// # Errors
-    /// [`TorqueGap`].
     pub fn rest(&self, at: GaitParameters) -> Result<Rest, TorqueGap> {
         let command = self.command(at)?;
         let robot = self.robot.borrow();
