@@ -148,12 +148,8 @@ fn refuse_options_of_pulls(args: &OptimizeArgs) -> Result<(), Failure> {
             args.solver != SolverName::De && args.solver != SolverName::CmaEs,
         ),
     ];
-    match given.iter().find(|(_, given)| *given) {
-        None => Ok(()),
-        Some((option, _)) => Err(Failure::Input(anyhow!(
-            "{option} does not go with --source cycle, which searches whole cycles by CMA-ES"
-        ))),
-    }
+    let reason = "does not go with --source cycle, which searches whole cycles by CMA-ES";
+    Failure::if_given(&given, reason)
 }
 
 /// What was found, under each ceiling.

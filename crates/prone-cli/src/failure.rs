@@ -36,6 +36,15 @@ impl Failure {
         Self::Work(error.into())
     }
 
+    /// Refuses the first option that was given of some that do not count here; the reason follows its
+    /// name.
+    pub(crate) fn if_given(options: &[(&str, bool)], reason: &str) -> Result<(), Self> {
+        let given = options.iter().find(|(_, given)| *given);
+        given.map_or(Ok(()), |(option, _)| {
+            Err(Self::Input(anyhow::anyhow!("{option} {reason}")))
+        })
+    }
+
     /// Prints one message and gives the exit code.
     pub(crate) fn report(self) -> ExitCode {
         let (message, code) = match self {

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use anyhow::anyhow;
+use clap::ValueEnum as _;
 
 use prone::regime::Regime;
 use prone_record::experiment::{
@@ -86,17 +86,15 @@ fn refuse_cycle_options(args: &OptimizeArgs) -> Result<(), Failure> {
         ("--worst-over", args.worst_over.is_some()),
         ("--most-heat", args.most_heat.is_some()),
     ];
-    match given.iter().find(|(_, given)| *given) {
-        None => Ok(()),
-        Some((option, _)) => Err(Failure::Input(anyhow!(
-            "{option} goes with --source cycle only"
-        ))),
-    }
+    Failure::if_given(&given, "goes with --source cycle only")
 }
 
 fn gait_name(args: &OptimizeArgs) -> String {
-    let default = || format!("best-{}", args.terms.objective.name());
-    args.name.clone().unwrap_or_else(default)
+    let objective = args.terms.objective.to_possible_value();
+    let objective = objective.map_or_else(String::new, |it| it.get_name().to_owned());
+    args.name
+        .clone()
+        .unwrap_or_else(|| format!("best-{objective}"))
 }
 
 /// A table of the runs, what was found beside others, and what simulation says.

@@ -71,12 +71,6 @@ pub(crate) fn choice(
 fn objective(
     args: &PullTermsArgs,
 ) -> Result<impl FnOnce(PullRules) -> PullObjective + use<>, Failure> {
-    let refuse = |given: &[(&str, bool)], reason: &str| {
-        let option = given.iter().find(|(_, given)| *given);
-        option.map_or(Ok(()), |(option, _)| {
-            Err(Failure::Input(anyhow!("{option} {reason}")))
-        })
-    };
     let name = args.objective;
     if matches!(name, ObjectiveName::Advance | ObjectiveName::Speed) {
         return Err(Failure::Input(anyhow!(
@@ -84,7 +78,7 @@ fn objective(
         )));
     }
     if name == ObjectiveName::Published {
-        refuse(
+        Failure::if_given(
             &[
                 ("--weights", args.weights.is_some()),
                 ("--per", args.per.is_some()),
@@ -97,7 +91,7 @@ fn objective(
             "does not go with --objective published, which has rules of its own",
         )?;
     } else {
-        refuse(
+        Failure::if_given(
             &[
                 ("--hip-threshold-mm", args.hip_threshold_mm.is_some()),
                 ("--limit-tolerance-rad", args.limit_tolerance_rad.is_some()),
@@ -106,13 +100,13 @@ fn objective(
         )?;
     }
     if matches!(name, ObjectiveName::Peak | ObjectiveName::Heat) {
-        refuse(
+        Failure::if_given(
             &[("--weights", args.weights.is_some())],
             "goes with --objective torque only",
         )?;
     }
     if name == ObjectiveName::Peak {
-        refuse(
+        Failure::if_given(
             &[("--per", args.per == Some(PerName::Metre))],
             "metre does not go with --objective peak: a peak does not add up",
         )?;

@@ -25,16 +25,6 @@ pub enum CycleObjective {
 }
 
 impl CycleObjective {
-    /// All objectives.
-    pub const ALL: [Self; 4] = [Self::Heat, Self::Advance, Self::Speed, Self::Peak];
-
-    /// The objective of a name in files and records, `None` for any other name.
-    pub fn named(name: &str) -> Option<Self> {
-        Self::ALL
-            .into_iter()
-            .find(|objective| objective.name() == name)
-    }
-
     /// Name in files and records.
     pub const fn name(self) -> &'static str {
         match self {

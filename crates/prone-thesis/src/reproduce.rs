@@ -32,7 +32,7 @@ use crate::chapter::Thesis;
 use crate::robot_numbers::{NumbersError, RobotNumbers};
 use crate::run_info::RunInfo;
 use crate::summary::{self, Summary};
-use crate::table_crawl::{self, TableError, TableResult, TableStudy};
+use crate::table_crawl::{self, TableResult, TableStudy};
 use crate::torque_study::{self, Plan, PlanError, StudyError, TorqueStudy};
 use crate::{agreement, published, tables};
 
@@ -71,9 +71,6 @@ pub enum ReproduceError {
     /// The study has no result.
     #[error(transparent)]
     Study(#[from] StudyError),
-    /// The crawl under the table has no result.
-    #[error(transparent)]
-    Table(#[from] TableError),
     /// The robot has no numbers for the report.
     #[error(transparent)]
     Numbers(#[from] NumbersError),
@@ -106,9 +103,10 @@ impl ReproduceError {
             Self::Study(error) => !matches!(
                 error,
                 StudyError::Trajectory(_)
+                    | StudyError::World(_)
+                    | StudyError::Cycle(_)
                     | StudyError::Pull(PullError::Trajectory(_) | PullError::StartPosture { .. })
             ),
-            Self::Table(error) => !matches!(error, TableError::Cycle(_)),
             Self::Numbers(_)
             | Self::Duration(_)
             | Self::Frames(_)
@@ -125,8 +123,7 @@ impl ReproduceError {
         matches!(
             self,
             Self::Run(RunError::Stopped)
-                | Self::Study(StudyError::Stopped)
-                | Self::Table(TableError::Crawl(CrawlError::Stopped))
+                | Self::Study(StudyError::Stopped | StudyError::Crawl(CrawlError::Stopped))
         )
     }
 }
@@ -240,7 +237,7 @@ fn table_study(robot: &Robot, texts: &TableTexts) -> Result<Option<TableStudy>, 
             scene_text: texts.scene.text.clone(),
         })),
         Err(CycleError::UnknownJoint { .. }) => Ok(None),
-        Err(error) => Err(TableError::from(error).into()),
+        Err(error) => Err(StudyError::from(error).into()),
     }
 }
 

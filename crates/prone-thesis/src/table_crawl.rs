@@ -5,14 +5,15 @@ use std::borrow::Cow;
 use serde::{Deserialize, Serialize};
 
 use prone::crawl::Straight;
-use prone::gait::cycle::{CycleError, TimeScale};
+use prone::gait::cycle::TimeScale;
 use prone::regime::Regime;
 use prone::scene::Scene;
-use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, Detail, End};
-use prone_sim::{LoadedRobot, World, WorldError};
+use prone_sim::crawl::{self, Crawl, CrawlPlan, Detail, End};
+use prone_sim::{LoadedRobot, World};
 
 use crate::published::{TABLE_CRAWLS, TableCrawl};
 use crate::run_info::TableInfo;
+use crate::torque_study::StudyError;
 use prone_record::crawl_summary::CrawlSummary;
 use prone_record::record_info::CrawlOptions;
 use prone_study::crawl::{GaitSource, summary};
@@ -63,26 +64,12 @@ pub(crate) struct TableResult {
     pub(crate) engine_steps: usize,
 }
 
-/// Why there is no result.
-#[derive(Debug, thiserror::Error)]
-pub enum TableError {
-    /// The table cannot be built.
-    #[error(transparent)]
-    World(#[from] WorldError),
-    /// The cycle does not fit the robot.
-    #[error(transparent)]
-    Cycle(#[from] CycleError),
-    /// The crawl has no record.
-    #[error(transparent)]
-    Crawl(#[from] CrawlError),
-}
-
 /// Simulates both, one after the other.
 pub(crate) fn run(
     robot: &LoadedRobot,
     study: &TableStudy,
     watch: &dyn Watch,
-) -> Result<TableResult, TableError> {
+) -> Result<TableResult, StudyError> {
     let world = World::in_scene(robot, Regime::LOCOMOTION, &study.scene)?;
     let [short, long] = TABLE_CRAWLS;
     let (first, shortest) = experiment(&world, study, 1, short, watch)?;
@@ -102,7 +89,7 @@ fn experiment(
     number: usize,
     published: TableCrawl,
     watch: &dyn Watch,
-) -> Result<(TableExperiment, Crawl), TableError> {
+) -> Result<(TableExperiment, Crawl), StudyError> {
     let plan = CrawlPlan {
         cycles: vec![study.gait.cycle.clone()],
         scale: TimeScale::ONE,

@@ -5,11 +5,13 @@ mod plan;
 use rayon::prelude::*;
 
 use prone::cost::{CostError, squared_torque_integral};
+use prone::gait::cycle::CycleError;
 use prone::gait::{CheckedTrajectory, Gait, PhaseDuration, TrajectoryError};
 use prone::mapping::MappingVariant;
 use prone::robot::Robot;
-use prone_sim::World;
+use prone_sim::crawl::CrawlError;
 use prone_sim::pull::{self, Keep, Pull, PullError, Start};
+use prone_sim::{World, WorldError};
 
 use prone_study::pulls::{chain_record, plan_chain, pull_record};
 use prone_study::watch::{Progress, Watch};
@@ -54,6 +56,15 @@ pub enum StudyError {
     /// A gait has no trajectory.
     #[error(transparent)]
     Trajectory(#[from] TrajectoryError),
+    /// The robot does not compile with the table.
+    #[error(transparent)]
+    World(#[from] WorldError),
+    /// The cycle does not fit the robot.
+    #[error(transparent)]
+    Cycle(#[from] CycleError),
+    /// The crawl under the table has no record.
+    #[error(transparent)]
+    Crawl(#[from] CrawlError),
     /// The cost of a record cannot be computed.
     #[error("gait {gait} at {duration_s} s: {source}")]
     Cost {

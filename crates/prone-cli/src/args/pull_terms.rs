@@ -82,20 +82,6 @@ pub(crate) enum ObjectiveName {
     Speed,
 }
 
-impl ObjectiveName {
-    /// Name in files and records.
-    pub(crate) const fn name(self) -> &'static str {
-        match self {
-            Self::Published => "published",
-            Self::Torque => "torque",
-            Self::Peak => "peak",
-            Self::Heat => "heat",
-            Self::Advance => "advance",
-            Self::Speed => "speed",
-        }
-    }
-}
-
 /// What a cost is divided by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum PerName {

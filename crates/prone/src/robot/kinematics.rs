@@ -13,11 +13,6 @@ use crate::frames::{Frame, Link, Point, Root, Transform};
 pub struct BodyPoses<F: Frame>(Vec<Transform<F, Link>>);
 
 impl<F: Frame> BodyPoses<F> {
-    /// Poses that something else computed (an engine), in the order of [`Robot::bodies`].
-    pub fn from_vec(poses: Vec<Transform<F, Link>>) -> Self {
-        Self(poses)
-    }
-
     /// The pose of one body.
     pub fn of(&self, body: BodyId) -> &Transform<F, Link> {
         &self.0[body.0]
