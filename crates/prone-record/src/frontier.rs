@@ -119,7 +119,7 @@ pub struct Confirmed {
 }
 
 /// A cycle in one setting.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct ConfirmedSetting {
     /// What the setting changes.
     pub setting: SettingKind,
@@ -145,26 +145,6 @@ pub struct ConfirmedSetting {
     pub kept: Option<f64>,
     /// Why it cannot be crawled.
     pub refused: Option<String>,
-}
-
-impl ConfirmedSetting {
-    /// A setting of which nothing is known.
-    pub const fn unknown(setting: SettingKind) -> Self {
-        Self {
-            setting,
-            mm_per_cycle: None,
-            mm_per_s: None,
-            yaw_deg: None,
-            top_mm: None,
-            top_part: None,
-            heat_per_metre_s: None,
-            peak_torque_over_rated: None,
-            peak_joint: None,
-            demanded_shoulder_nm: None,
-            kept: None,
-            refused: None,
-        }
-    }
 }
 
 /// `frontier.csv`: one row per ceiling, seed and setting.

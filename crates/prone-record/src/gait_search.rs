@@ -225,10 +225,7 @@ pub fn history_csv<'s>(search: &'s Search) -> Result<Vec<u8>, csv::Error> {
             ("mean_violation", &|(_, it)| number(it.mean_violation, 6)),
             ("feasible", &|(_, it)| it.feasible.to_string()),
             ("mean_feasible_torque", &|(_, it)| {
-                let feasible = it.feasible > 0;
-                feasible
-                    .then(|| number(it.mean_feasible_value, 6))
-                    .unwrap_or_default()
+                maybe(Some(it.mean_feasible_value).filter(|_| it.feasible > 0), 6)
             }),
             ("restarts", &|(_, it)| it.restarts.to_string()),
             ("mean_torque", &|(_, it)| maybe(finite(it.mean_value), 6)),

@@ -39,7 +39,7 @@ use crate::crawl::pull::PullRecording;
 use crate::crawl::record::{self, Recording};
 use crate::crawl::{self, CrawlRunError, CrawlSetup, summary};
 use crate::pulls::pull_record;
-use crate::search::passage::Passage;
+use crate::search::passage::{self, Passage};
 use crate::search::room::NoRoom;
 use crate::search::settings;
 use crate::watch::Watch;
@@ -278,11 +278,9 @@ impl Session {
         }
         let mut cycles: Vec<Cycle> = sources.into_iter().map(|(cycle, _)| cycle).collect();
         if let (Some(asked), true) = (experiment.search, passage.may_be_searched()) {
-            let height = ceiling - margin;
-            let found = self
-                .pool()?
-                .install(|| passage.search(asked, &robot, &cycles, ceiling_mm, height, watch));
-            cycles.extend(found?);
+            let searched = passage::candidates(&robot, &cycles, ceiling - margin)?;
+            let pool = self.pool()?;
+            cycles.extend(pool.install(|| passage.search(asked, &searched, ceiling_mm, watch))?);
         }
         // What was searched last is the one of its name.
         let best = passage.best.as_ref();

@@ -5,10 +5,11 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 /// What a setting changes. Records carry it as the words that it is printed with.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
 pub enum SettingKind {
     /// Nothing.
+    #[default]
     AsItIs,
     /// Slow, on slippery ground: the first of the corners of a search.
     SlowSlippery,

@@ -17,7 +17,6 @@ use prone_sim::{LoadError, WorldError};
 use crate::crawl::record::RecordError;
 use crate::crawl::{CrawlRunError, CrawlSetupError, RefusedCycle};
 use crate::search::cycle_jobs::CycleSearchError;
-use crate::search::passage::PassageError;
 use crate::search::pull_error::PullCostError;
 use crate::search::room::NoRoom;
 use crate::search::run::SearchError;
@@ -170,12 +169,11 @@ impl From<CycleSearchError> for RunError {
     }
 }
 
-impl From<PassageError> for RunError {
-    fn from(error: PassageError) -> Self {
+impl From<SearchError> for RunError {
+    fn from(error: SearchError) -> Self {
         match error {
-            PassageError::Result(SearchError::Stopped) => Self::Stopped,
-            PassageError::Result(error) => Self::Search(Box::new(error)),
-            PassageError::Search(error) => error.into(),
+            SearchError::Stopped => Self::Stopped,
+            other => Self::Search(Box::new(other)),
         }
     }
 }

@@ -107,28 +107,21 @@ impl Session {
         }
         let kept = checkpoint.as_mut();
         let done = pool.install(|| run::run(run, &mut searches, time, watch, kept));
-        let done = done.map_err(|error| match (error, &checkpoint) {
-            (SearchError::Stopped, checkpoint) => stopped(checkpoint.as_ref()),
-            (error, _) => RunError::Search(Box::new(error)),
-        })?;
+        let kept = |error| match (error, &checkpoint) {
+            (RunError::Stopped, Some(checkpoint)) => RunError::StoppedSearch {
+                checkpoint: checkpoint.path().to_owned(),
+            },
+            (error, _) => error,
+        };
+        let done = done.map_err(|error| kept(error.into()))?;
         let published = self.publish(&done.artefacts, watch, || match (&checkpoint, done.end) {
             (Some(checkpoint), SearchEnd::Finished) => Ok(checkpoint.remove()?),
             // One that a time budget ended can still go on.
             _ => Ok(()),
         });
-        published.map_err(|error| match error {
-            RunError::Stopped => stopped(checkpoint.as_ref()),
-            other => other,
-        })?;
+        published.map_err(kept)?;
         Ok(done.result)
     }
-}
-
-/// The user has stopped the search, which is kept if it has a place.
-fn stopped(checkpoint: Option<&Checkpoint>) -> RunError {
-    checkpoint.map_or(RunError::Stopped, |checkpoint| RunError::StoppedSearch {
-        checkpoint: checkpoint.path().to_owned(),
-    })
 }
 
 /// Takes up what an earlier program has left, and tells what that was.

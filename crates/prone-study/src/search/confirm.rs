@@ -100,8 +100,9 @@ fn confirmed_cycle(
             Err(error) => {
                 all_hold &= role == Role::Beside;
                 ConfirmedSetting {
+                    setting: setting.spec.kind,
                     refused: Some(error.to_string()),
-                    ..ConfirmedSetting::unknown(setting.spec.kind)
+                    ..ConfirmedSetting::default()
                 }
             }
         }

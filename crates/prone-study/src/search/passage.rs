@@ -161,42 +161,35 @@ impl Tried {
     }
 }
 
-/// Why there is no answer.
-#[derive(Debug, thiserror::Error)]
-pub enum PassageError {
-    /// Cycles cannot be searched.
-    #[error(transparent)]
-    Search(#[from] CycleSearchError),
-    /// The search has no result.
-    #[error(transparent)]
-    Result(#[from] SearchError),
+/// What is searched where no cycle fits: about the one that fits best under a height, m.
+pub fn candidates(
+    robot: &LoadedRobot,
+    cycles: &[Cycle],
+    height: f64,
+) -> Result<CycleSearch, CycleSearchError> {
+    let objective = CycleObjective::Advance;
+    let settings: Arc<[Setting]> = settings::for_search(objective, robot)?.into();
+    let base = cycle_jobs::base(robot, &settings[0], cycles, height)?;
+    let aim = CycleAim {
+        objective,
+        merge: Merge::Mean,
+        rules: cycle_jobs::usual_rules(objective, height, base, robot.robot()),
+    };
+    Ok(CycleSearch::new(robot.robot(), &settings, aim, base)?)
 }
 
 impl Passage {
-    /// Searches a cycle that fits under the ceiling, about the lowest one there is, and takes it into
-    /// account. Nothing where the budget is too small.
+    /// Searches a cycle that fits under the ceiling, and takes it into account. Nothing where the
+    /// budget is too small.
     pub fn search(
         &mut self,
         asked: PassageSearch,
-        robot: &LoadedRobot,
-        cycles: &[Cycle],
+        searched: &CycleSearch,
         ceiling_mm: f64,
-        height: f64,
         watch: &dyn Watch,
-    ) -> Result<Option<Cycle>, PassageError> {
-        let objective = CycleObjective::Advance;
-        let settings = settings::for_search(objective, robot);
-        let settings: Arc<[Setting]> = settings.map_err(CycleSearchError::from)?.into();
-        let base = cycle_jobs::base(robot, &settings[0], cycles, height)?;
-        let aim = CycleAim {
-            objective,
-            merge: Merge::Mean,
-            rules: cycle_jobs::usual_rules(objective, height, base, robot.robot()),
-        };
-        let searched = CycleSearch::new(robot.robot(), &settings, aim, base);
-        let searched = searched.map_err(CycleSearchError::from)?;
+    ) -> Result<Option<Cycle>, SearchError> {
         let mut search = Search::new(Solver::AboutTheMiddle, asked.seed, 1, asked.budget);
-        let end = search.proceed(&Threads(Searched(&searched)), |search| {
+        let end = search.proceed(&Threads(Searched(searched)), |search| {
             watch.progress(&Progress::Searching(search));
             if watch.stop() {
                 ControlFlow::Break(())
@@ -205,12 +198,12 @@ impl Passage {
             }
         });
         if end == SearchEnd::Interrupted {
-            return Err(SearchError::Stopped.into());
+            return Err(SearchError::Stopped);
         }
         let Some((_, best)) = search.best() else {
             return Ok(None);
         };
-        let mut cycle = searched.gait(&best.point).map_err(SearchError::from)?;
+        let mut cycle = searched.gait(&best.point)?;
         let cost = searched.cost(&cycle, Depth::Everything);
         let ceiling_name = ceiling_mm.to_string().replace('.', "-");
         cycle.pull.name = format!("under-{ceiling_name}-seed-{}", asked.seed);

@@ -86,15 +86,12 @@ pub enum PullCostError {
     #[error(transparent)]
     Symmetry(#[from] SymmetryError),
     /// A pull and the base of its costs are of two kinds.
-    #[error(
-        "gait {} has mapping {} and arms {}, but the base gait {} has {} and {}",
-        gait[0], gait[1], gait[2], base[0], base[1], base[2]
-    )]
+    #[error("gait {gait}, but the base gait {base}")]
     OtherKind {
-        /// Name, mapping and arms of the pull.
-        gait: [String; 3],
+        /// The pull's name, mapping and arms, in words.
+        gait: String,
         /// Those of the base gait.
-        base: [String; 3],
+        base: String,
     },
     /// The form cannot be searched.
     #[error(transparent)]
