@@ -19,7 +19,7 @@ use crate::search::pull_cost::PullCosts;
 use crate::search::pull_error::PullCostError;
 use crate::search::pull_terms::{PullAim, PullTerms, Share, check_advance};
 use crate::search::pulls::PullRun;
-use crate::search::run::{self, Checkpoint, SearchError, SearchRun};
+use crate::search::run::{self, SearchRun};
 use crate::watch::{Found, Progress, Watch};
 
 /// What a pull costs.
@@ -44,8 +44,10 @@ pub(super) fn cost(
     let base = &terms.base;
     let same_kind = (gait.mapping, gait.arm) == (base.mapping, base.arm);
     if matches!(terms.aim, PullAim::Graded(_)) && !same_kind {
-        let kind =
-            |gait: &Gait| [&*gait.name, gait.mapping.name(), gait.arm.name()].map(str::to_owned);
+        let kind = |gait: &Gait| {
+            let (mapping, arm) = (gait.mapping.name(), gait.arm.name());
+            format!("{} has mapping {mapping} and arms {arm}", gait.name)
+        };
         let (gait, base) = (kind(&gait), kind(base));
         return Err(PullCostError::OtherKind { gait, base });
     }
