@@ -37,15 +37,15 @@ pub(crate) fn of_study(error: RunError, experiment: &Experiment) -> Failure {
         RunError::CycleSearch(error) => return of_cycle_search(*error, experiment),
         RunError::NoRoom(error) => no_room("--ceiling-mm", error),
         RunError::Searches { .. } => format!("{error}; without --resume it is replaced"),
-        RunError::Pulls(error) => of_pulls(error),
+        RunError::Pulls(error) => of_pulls(&error),
         error if error.is_work() => return Failure::work(error),
         error => return Failure::input(error),
     };
     Failure::Input(anyhow!(message))
 }
 
-fn of_pulls(error: PullCostError) -> String {
-    match &error {
+fn of_pulls(error: &PullCostError) -> String {
+    match error {
         PullCostError::OtherKind { .. } => {
             format!("{error}: leave out --from, or name a gait of the same kind there")
         }

@@ -2,7 +2,7 @@
 
 mod setting_kind;
 
-pub use setting_kind::{SettingKind, UnknownSetting};
+pub use setting_kind::SettingKind;
 
 use serde::{Deserialize, Serialize};
 

@@ -11,7 +11,7 @@ use serde_json::Value;
 
 use prone_files::text_file;
 
-use crate::experiment::{CycleRulesChoice, PullRules, Runs};
+use crate::experiment::{CycleRulesChoice, Ends, PullRules, Runs};
 use crate::frontier::CycleObjective;
 use crate::program::{Program, RobotInfo};
 use crate::search::{Search, Solver};
@@ -79,7 +79,7 @@ pub struct PullPlan {
     /// Curves that are searched.
     pub form: String,
     /// Whether θ3 and θ4 keep the base gait's ends.
-    pub ends: String,
+    pub ends: Ends,
     /// Name of the found gait.
     pub name: String,
     /// Durations at which the found gait is simulated, s.

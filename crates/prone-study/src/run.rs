@@ -211,7 +211,7 @@ impl Session {
         let _lock = self.lock("crawl that is recorded in this folder")?;
         let started = Instant::now();
         // Pictures are taken on it.
-        let pool = match setup.detail() {
+        let pool = match setup.detail {
             Detail::Sums => None,
             Detail::Rows => Some(self.pool()?),
         };

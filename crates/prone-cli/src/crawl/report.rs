@@ -3,7 +3,7 @@
 use std::io::{Result, Write};
 
 use prone::robot::BodyPart;
-use prone_record::crawl_summary::CrawlSummary;
+use prone_record::crawl_summary::{CrawlSummary, PlateContact};
 
 pub(crate) fn print(summary: &CrawlSummary, out: &mut dyn Write) -> Result<()> {
     let s = summary;
@@ -63,11 +63,11 @@ pub(crate) fn print(summary: &CrawlSummary, out: &mut dyn Write) -> Result<()> {
         s.demanded_peak_shoulder_nm,
         s.saturated_shoulder_share * 100.0
     )?;
+    let percent = s.saturated_share * 100.0;
     match &s.saturated_joint {
         Some(joint) => writeln!(
             out,
-            "  at the effort limit {:.1} % of the time ({joint})",
-            s.saturated_share * 100.0
+            "  at the effort limit {percent:.1} % of the time ({joint})"
         )?,
         None => writeln!(out, "  never at an effort limit")?,
     }
@@ -78,19 +78,25 @@ pub(crate) fn print(summary: &CrawlSummary, out: &mut dyn Write) -> Result<()> {
             s.work_j
         )?;
     }
+    print_touched_and_stopped(s, out)
+}
+
+fn print_touched_and_stopped(s: &CrawlSummary, out: &mut dyn Write) -> Result<()> {
     if s.contacts.is_empty() {
         writeln!(out, "  touched no plate or panel")?;
     }
     for contact in &s.contacts {
+        let PlateContact {
+            body,
+            obstacle,
+            count,
+            first_s,
+            seconds,
+            peak_n,
+        } = contact;
         writeln!(
             out,
-            "  touched {}: {}, {} times from {:.2} s on, {:.2} s in all, up to {:.1} N",
-            contact.obstacle,
-            contact.body,
-            contact.count,
-            contact.first_s,
-            contact.seconds,
-            contact.peak_n
+            "  touched {obstacle}: {body}, {count} times from {first_s:.2} s on, {seconds:.2} s in all, up to {peak_n:.1} N"
         )?;
     }
     for clamp in &s.clamps {

@@ -77,16 +77,6 @@ pub enum Ends {
     Free,
 }
 
-impl Ends {
-    /// Name in files and records.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Fixed => "fixed",
-            Self::Free => "free",
-        }
-    }
-}
-
 /// A search of whole cycles: `prone optimize --source cycle`, and `prone crawl frontier`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CycleSearchExperiment {

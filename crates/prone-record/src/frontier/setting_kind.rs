@@ -38,14 +38,6 @@ pub enum SettingKind {
     PullOf(f64),
 }
 
-/// No setting is called so.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("there is no setting {name:?}")]
-pub struct UnknownSetting {
-    /// What was read.
-    pub name: String,
-}
-
 impl fmt::Display for SettingKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -73,9 +65,9 @@ impl From<SettingKind> for String {
 }
 
 impl TryFrom<String> for SettingKind {
-    type Error = UnknownSetting;
+    type Error = String;
 
-    fn try_from(name: String) -> Result<Self, UnknownSetting> {
+    fn try_from(name: String) -> Result<Self, String> {
         let plain = [
             Self::AsItIs,
             Self::SlowSlippery,
@@ -87,7 +79,7 @@ impl TryFrom<String> for SettingKind {
         ];
         let plain = plain.into_iter().find(|kind| kind.to_string() == name);
         let kind = plain.or_else(|| with_numbers(&name));
-        kind.ok_or(UnknownSetting { name })
+        kind.ok_or_else(|| format!("there is no setting {name:?}"))
     }
 }
 

@@ -37,7 +37,8 @@ pub struct CrawlSetup {
     end: End,
     offsets: Option<JointAngles>,
     steering: Steering,
-    detail: Detail,
+    /// What is kept of it.
+    pub detail: Detail,
 }
 
 /// Why a crawl cannot be simulated as it was asked for.
@@ -264,11 +265,6 @@ impl CrawlSetup {
             steering,
             detail: experiment.detail,
         })
-    }
-
-    /// What is kept of it.
-    pub const fn detail(&self) -> Detail {
-        self.detail
     }
 
     /// Simulates the crawl, stopped at once when `stopped` says so.

@@ -89,7 +89,7 @@ impl PullRun {
             head,
             pricing: costs.terms().plan(&world, robot),
             form: form.form().to_string(),
-            ends: form.ends().name().to_owned(),
+            ends: form.ends(),
             name: name.clone(),
             confirm_durations_s: durations.iter().map(|it| it.seconds()).collect(),
         }));
