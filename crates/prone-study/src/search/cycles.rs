@@ -46,7 +46,7 @@ impl CycleRun {
         watch: &dyn Watch,
     ) -> Result<Self, CycleSearchError> {
         let objective = experiment.objective;
-        let mut confirmation = settings::for_confirmation_of(objective, robot)?;
+        let mut confirmation = settings::for_confirmation(objective, robot)?;
         let steering = settings::for_steering_confirmation(robot)?;
         if experiment.steerable {
             confirmation.extend(steering.iter().cloned());

@@ -124,17 +124,6 @@ pub fn for_search(
     }
 }
 
-/// For the confirmation of what such a search found.
-pub fn for_confirmation_of(
-    objective: CycleObjective,
-    robot: &LoadedRobot,
-) -> Result<Vec<Setting>, SettingError> {
-    match objective {
-        CycleObjective::Heat | CycleObjective::Peak => for_heat_confirmation(robot),
-        CycleObjective::Advance | CycleObjective::Speed => for_confirmation(robot),
-    }
-}
-
 /// For a search of the advance: as it is, and the two corners in which it is hardest to hold.
 pub fn for_advance(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
     compiled(
@@ -200,11 +189,15 @@ pub fn for_heat(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
     )
 }
 
-/// For a confirmation: one thing changed at a time, three cycles each. Stiff servos stand beside it,
-/// and servos that command as much speed as the fastest joint of the robot has, where the robot's
-/// law cuts earlier (the NAO's at 3 rad/s) and limbs lag behind the plan: no search of the advance
-/// looks at them.
-pub fn for_confirmation(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
+/// For the confirmation of what such a search found: one thing changed at a time, three cycles each.
+/// Stiff servos stand beside it, and servos that command as much speed as the fastest joint of the
+/// robot has, where the robot's law cuts earlier (the NAO's at 3 rad/s) and limbs lag behind the plan:
+/// no search of the advance looks at them. Heat and peak are confirmed at other durations of the pull
+/// too.
+pub fn for_confirmation(
+    objective: CycleObjective,
+    robot: &LoadedRobot,
+) -> Result<Vec<Setting>, SettingError> {
     let fine = SettingSpec {
         regime: Regime {
             time_step: 0.001,
@@ -221,7 +214,7 @@ pub fn for_confirmation(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingErro
         },
         ..plain(SettingKind::BriskServos, 3, Role::Beside)
     };
-    compiled(
+    let mut settings = compiled(
         robot,
         [
             plain(SettingKind::AsItIs, 3, Role::Value),
@@ -233,13 +226,12 @@ pub fn for_confirmation(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingErro
             stiff(robot, 3, Role::Beside),
             brisk,
         ],
-    )
-}
-
-/// For a confirmation of the heat: servos, frictions and the duration of the pull.
-pub fn for_heat_confirmation(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
-    let mut settings = for_confirmation(robot)?;
-    for seconds in [1.0, 2.0, 3.0] {
+    )?;
+    let pulls: &[f64] = match objective {
+        CycleObjective::Heat | CycleObjective::Peak => &[1.0, 2.0, 3.0],
+        CycleObjective::Advance | CycleObjective::Speed => &[],
+    };
+    for &seconds in pulls {
         let other_pull = SettingSpec {
             pull: Some(PhaseDuration::new(seconds)?),
             ..plain(SettingKind::PullOf(seconds), 3, Role::Beside)
