@@ -9,7 +9,7 @@ use crate::search::{Search, SeededRun};
 use crate::tables::{columns, maybe, number};
 
 /// What a search found.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Outcome {
     /// Name of the gait.
     pub gait: String,
@@ -19,7 +19,7 @@ pub struct Outcome {
     #[serde(flatten)]
     pub cost: PullCost,
     /// Unit of the torque part.
-    pub unit: &'static str,
+    pub unit: Cow<'static, str>,
     /// Seed of the run that found it.
     pub seed: u64,
     /// Evaluations of all runs.
@@ -39,7 +39,7 @@ pub struct Outcome {
 }
 
 /// One run's best.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunOutcome {
     /// Its seed.
     pub seed: u64,
@@ -55,7 +55,7 @@ pub struct RunOutcome {
 }
 
 /// The cost of another gait, and the found one's over it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Compared {
     /// Name of the gait.
     pub gait: String,
@@ -67,7 +67,7 @@ pub struct Compared {
 }
 
 /// The cost of a pull, in parts.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PullCost {
     /// What is minimised among gaits with the same violations; for `published` its cost, in which
     /// violations weigh 1000 each. `None` where it is not known, as violations forbid to simulate.
@@ -135,10 +135,10 @@ pub struct Row {
 }
 
 /// A pull that could not be simulated.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Refusal {
     /// Contact regime.
-    pub regime: &'static str,
+    pub regime: Cow<'static, str>,
     /// Name of the gait.
     pub gait: String,
     /// Why.
@@ -146,20 +146,20 @@ pub struct Refusal {
 }
 
 /// The found gait against another in one regime.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Verdict {
     /// Contact regime.
-    pub regime: &'static str,
+    pub regime: Cow<'static, str>,
     /// The other gait.
     pub against: String,
     /// Durations at which the found gait costs less.
     pub cheaper_at: usize,
     /// Durations at which both were simulated.
     pub of: usize,
-    /// Lowest ratio of found to other.
-    pub best_ratio: f64,
-    /// Highest ratio of found to other.
-    pub worst_ratio: f64,
+    /// Lowest ratio of found to other, where there is one.
+    pub best_ratio: Option<f64>,
+    /// Highest ratio of found to other, where there is one.
+    pub worst_ratio: Option<f64>,
 }
 
 impl Outcome {
@@ -182,11 +182,11 @@ impl Verdict {
             best_ratio,
             worst_ratio,
         } = self;
-        if *of == 0 {
+        let (Some(best), Some(worst)) = (best_ratio, worst_ratio) else {
             return format!("{regime}: not compared with {against}.");
-        }
+        };
         format!(
-            "{regime}: {best_ratio:.3} to {worst_ratio:.3} of {against}, cheaper at {cheaper_at} of {of} durations."
+            "{regime}: {best:.3} to {worst:.3} of {against}, cheaper at {cheaper_at} of {of} durations."
         )
     }
 }

@@ -149,7 +149,8 @@ fn a_search_says_its_robot_solver_seed_and_budget() {
     let result = json!({
         "gait": "found", "curves": {"knee": line, "hip": line, "upper_arm": line}, "cost": null,
         "torque": null, "violations": 0.5, "unit": "N²·m²·s", "seed": 7, "evaluations": 60,
-        "complete": true, "compared": [], "verdicts": [],
+        "complete": true, "compared": [], "verdicts": [], "broken": [], "variables": 12, "runs": [],
+        "refused": [],
     });
     let points = ["toe", "ankle", "knee", "hip", "shoulder", "elbow"];
     let points = points

@@ -236,8 +236,8 @@ impl Page<'_> {
     fn curves(&self) -> Markup {
         html! {
             @for run in self.runs {
-                @if let Content::Pulls(result) = &run.content {
-                    (curve_tables::found(&result.gait, &run.folder.name, &result.curves))
+                @if let Content::Pulls(search) = &run.content {
+                    (curve_tables::found(&search.result.gait, &run.folder.name, &search.result.curves))
                 }
             }
         }

@@ -17,7 +17,7 @@ use prone_record::figure_entry::FigureEntry;
 use prone_record::frontier::Frontier;
 use prone_record::program::RobotInfo;
 use prone_record::search_plan::SearchPlan;
-use pull_search::SearchResult;
+use pull_search::PullSearch;
 use record::Record;
 
 /// What was read of a result folder.
@@ -54,7 +54,7 @@ pub trait PublishedRun: Send + Sync {
 pub(super) enum Content {
     Published(Box<dyn PublishedRun>),
     Record(Box<Record>),
-    Pulls(Box<SearchResult>),
+    Pulls(Box<PullSearch>),
     Cycles(Frontier),
     Map,
 }

@@ -5,13 +5,13 @@ use prone_record::frontier::{ConfirmedSetting, Found, Frontier};
 
 use super::folder::Given;
 use super::html_table::{optional, table};
-use super::run::pull_search::SearchResult;
+use super::run::pull_search::PullSearch;
 use super::run::{Content, Run};
 
 /// What searches found; nothing without searches.
 pub(super) fn searches(runs: &[Run]) -> Markup {
     let searches = runs.iter().filter_map(|run| match &run.content {
-        Content::Pulls(result) => Some(pulls(&run.folder.name, result)),
+        Content::Pulls(search) => Some(pulls(&run.folder.name, search)),
         Content::Cycles(result) => Some(found(&run.folder.name, result)),
         Content::Published(_) | Content::Record(_) | Content::Map => None,
     });
@@ -27,7 +27,8 @@ pub(super) fn searches(runs: &[Run]) -> Markup {
 }
 
 /// A search of pulls: its cost beside the others', and the simulation's verdicts.
-fn pulls(name: &str, result: &SearchResult) -> Markup {
+fn pulls(name: &str, search: &PullSearch) -> Markup {
+    let (result, cost) = (&search.result, &search.result.cost);
     let caption = html! {
         "What the simulation says of " strong { (result.gait) } ": its cost over another gait's, \
          at the durations of the confirmation. Ours."
@@ -36,10 +37,10 @@ fn pulls(name: &str, result: &SearchResult) -> Markup {
     html! {
         p {
             strong { (result.gait) } ", found in " (name) " by the objective "
-            (result.aim) " on " (result.source) ", " (result.evaluations) " evaluations"
+            (search.aim) " on " (search.source) ", " (result.evaluations) " evaluations"
             @if !result.complete { ", ended by its time budget" }
             ": "
-            @match (result.cost, result.torque) {
+            @match (cost.cost, cost.torque) {
                 (Some(cost), Some(torque)) if (cost - torque).abs() > 1e-12 => {
                     "cost " (format!("{cost:.4}")) ", torque part " (format!("{torque:.4} {}", result.unit))
                 }
@@ -47,7 +48,7 @@ fn pulls(name: &str, result: &SearchResult) -> Markup {
                 (None, Some(torque)) => { "torque part " (format!("{torque:.4} {}", result.unit)) }
                 (None, None) => { "no cost" }
             }
-            ", violations " (format!("{:.4}", result.violations)) "."
+            ", violations " (format!("{:.4}", cost.violations)) "."
             @for compared in &result.compared {
                 @if let Some(ratio) = compared.torque_ratio {
                     " " (format!("{ratio:.3}")) " of " (compared.gait) "'s there."

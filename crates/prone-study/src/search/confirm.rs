@@ -179,7 +179,7 @@ fn pull_row(
         Ok(pull) => pull,
         Err(error) => {
             return Ok(Err(Refusal {
-                regime: world.regime().name,
+                regime: world.regime().name.into(),
                 gait: gait.name.clone(),
                 reason: error.to_string(),
             }));
@@ -256,12 +256,12 @@ fn verdicts(rows: &[Row], regimes: &[&'static str], gaits: &[Gait]) -> Vec<Verdi
                 })
                 .collect();
             verdicts.push(Verdict {
-                regime,
+                regime: regime.into(),
                 against: other.name.clone(),
                 cheaper_at: ratios.iter().filter(|ratio| **ratio < 1.0).count(),
                 of: ratios.len(),
-                best_ratio: ratios.iter().copied().fold(f64::INFINITY, f64::min),
-                worst_ratio: ratios.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+                best_ratio: ratios.iter().copied().reduce(f64::min),
+                worst_ratio: ratios.iter().copied().reduce(f64::max),
             });
         }
     }

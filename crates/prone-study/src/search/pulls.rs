@@ -175,7 +175,7 @@ impl PullRun {
         Ok(Outcome {
             gait: gait.name.clone(),
             curves: CurvesInfo::of(gait),
-            unit: searched.costs.terms().aim.objective().unit(),
+            unit: searched.costs.terms().aim.objective().unit().into(),
             seed,
             evaluations: search.evaluations(),
             complete: end == SearchEnd::Finished,

@@ -1,7 +1,5 @@
 //! Reading the result folder of `prone optimize` over pulls.
 
-use serde::Deserialize;
-
 use super::{Content, Run};
 use crate::figures::GaitNumbers;
 use crate::figures::{
@@ -10,47 +8,17 @@ use crate::figures::{
 use crate::report::cut_table::{Column, Line};
 use crate::report::folder::Folder;
 use crate::report::{ReportError, chains};
-use prone_record::curves_info::CurvesInfo;
+use prone_record::gait_search::Outcome;
 use prone_record::search_plan::{PullAimPlan, PullPlan};
 
-/// What is needed of `result.json`, and of the plan.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-pub(in crate::report) struct SearchResult {
+/// A search of pulls.
+pub(in crate::report) struct PullSearch {
     /// What was minimised, as it was asked for.
-    #[serde(skip)]
-    pub(in crate::report) aim: String,
+    pub(in crate::report) aim: &'static str,
     /// Where torques came from.
-    #[serde(skip)]
     pub(in crate::report) source: String,
-    pub(in crate::report) gait: String,
-    pub(in crate::report) curves: CurvesInfo,
-    pub(in crate::report) cost: Option<f64>,
-    pub(in crate::report) torque: Option<f64>,
-    pub(in crate::report) violations: f64,
-    pub(in crate::report) unit: String,
-    pub(in crate::report) seed: u64,
-    pub(in crate::report) evaluations: u64,
-    pub(in crate::report) complete: bool,
-    pub(in crate::report) compared: Vec<ComparedGait>,
-    pub(in crate::report) verdicts: Vec<VerdictRow>,
-}
-
-/// Another gait's cost.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-pub(in crate::report) struct ComparedGait {
-    pub(in crate::report) gait: String,
-    pub(in crate::report) torque_ratio: Option<f64>,
-}
-
-/// The found gait against another in simulation.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-pub(in crate::report) struct VerdictRow {
-    pub(in crate::report) regime: String,
-    pub(in crate::report) against: String,
-    pub(in crate::report) cheaper_at: usize,
-    pub(in crate::report) of: usize,
-    pub(in crate::report) best_ratio: Option<f64>,
-    pub(in crate::report) worst_ratio: Option<f64>,
+    /// What was found.
+    pub(in crate::report) result: Outcome,
 }
 
 /// Reads a search; its figures are drawn from its tables.
@@ -60,11 +28,7 @@ pub(super) fn read(
     gaits: &[GaitNumbers],
 ) -> Result<Run, ReportError> {
     let aim = plan.pricing.aim.name();
-    let result = SearchResult {
-        aim: aim.to_owned(),
-        source: plan.pricing.source.name().to_owned(),
-        ..folder.json("result.json")?
-    };
+    let result: Outcome = folder.json("result.json")?;
     let (scores, objective) = match &plan.pricing.aim {
         // The published cost is one of torque.
         PullAimPlan::Published { .. } => (Scores::Published, "torque"),
@@ -74,7 +38,7 @@ pub(super) fn read(
     let history = SearchRecord {
         seed: result.seed,
         objective: objective.to_owned(),
-        unit: result.unit.clone(),
+        unit: result.unit.to_string(),
         scores,
         generations: history(&folder, result.seed, &mut cuts)?,
     };
@@ -85,7 +49,12 @@ pub(super) fn read(
         folder.drawn(confirmation(&confirmed, objective))?,
         folder.drawn(parameters(gaits, &chains))?,
     ];
-    let mut run = Run::new(folder, Content::Pulls(Box::new(result)));
+    let search = PullSearch {
+        aim,
+        source: plan.pricing.source.name().to_owned(),
+        result,
+    };
+    let mut run = Run::new(folder, Content::Pulls(Box::new(search)));
     run.drawings = drawings.into_iter().flatten().collect();
     run.shortfalls = cuts;
     Ok(run)
