@@ -266,28 +266,6 @@ impl SearchHead {
     }
 }
 
-impl PullAimPlan {
-    /// Name of the objective.
-    pub const fn name(&self) -> &'static str {
-        match self {
-            Self::Published { .. } => "published",
-            Self::Torque(_) => "torque",
-            Self::Peak(_) => "peak",
-            Self::Heat(_) => "heat",
-        }
-    }
-}
-
-impl SourcePlan {
-    /// The file, or the name.
-    pub fn name(&self) -> &str {
-        match self {
-            Self::Map { file, .. } => file,
-            Self::Named(name) => name,
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use serde_json::json;
@@ -362,7 +340,7 @@ mod tests {
             if let SearchPlan::Pull(plan) = &plan {
                 assert_eq!(again["pricing"]["aim"], written["pricing"]["aim"]);
                 assert_eq!(again["pricing"]["source"], "statics");
-                assert_eq!(plan.pricing.aim.name(), "heat");
+                assert!(matches!(plan.pricing.aim, PullAimPlan::Heat(_)));
             }
             assert_eq!(plan.head().budget, Some(60));
             assert_eq!(plan.without_budget().head().budget, None);

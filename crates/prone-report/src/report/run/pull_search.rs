@@ -9,7 +9,7 @@ use crate::report::cut_table::{Column, Line};
 use crate::report::folder::Folder;
 use crate::report::{ReportError, chains};
 use prone_record::gait_search::Outcome;
-use prone_record::search_plan::{PullAimPlan, PullPlan};
+use prone_record::search_plan::{PullAimPlan, PullPlan, SourcePlan};
 
 /// A search of pulls.
 pub(in crate::report) struct PullSearch {
@@ -27,13 +27,15 @@ pub(super) fn read(
     plan: &PullPlan,
     gaits: &[GaitNumbers],
 ) -> Result<Run, ReportError> {
-    let aim = plan.pricing.aim.name();
     let result: Outcome = folder.json("result.json")?;
-    let (scores, objective) = match &plan.pricing.aim {
+    let (aim, scores, objective) = match &plan.pricing.aim {
         // The published cost is one of torque.
-        PullAimPlan::Published { .. } => (Scores::Published, "torque"),
-        _ => (Scores::Graded, aim),
+        PullAimPlan::Published { .. } => ("published", Scores::Published, "torque"),
+        PullAimPlan::Torque(_) => ("torque", Scores::Graded, "torque"),
+        PullAimPlan::Peak(_) => ("peak", Scores::Graded, "peak"),
+        PullAimPlan::Heat(_) => ("heat", Scores::Graded, "heat"),
     };
+    let (SourcePlan::Map { file: source, .. } | SourcePlan::Named(source)) = &plan.pricing.source;
     let mut cuts = Vec::new();
     let history = SearchRecord {
         seed: result.seed,
@@ -51,7 +53,7 @@ pub(super) fn read(
     ];
     let search = PullSearch {
         aim,
-        source: plan.pricing.source.name().to_owned(),
+        source: source.clone(),
         result,
     };
     let mut run = Run::new(folder, Content::Pulls(Box::new(search)));
