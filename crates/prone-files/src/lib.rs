@@ -15,7 +15,7 @@ mod family_file;
 pub mod gait_file;
 pub mod gait_text;
 pub mod gaits;
-mod plain_name;
+pub mod plain_name;
 pub mod robot_file;
 pub mod robot_folder;
 pub mod scene_file;

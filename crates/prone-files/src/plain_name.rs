@@ -1,7 +1,7 @@
 //! Names that become parts of file names.
 
 /// Whether a name is made of letters, digits, `-` and `_`: never empty, never a path.
-pub(crate) fn is_plain(name: &str) -> bool {
+pub fn is_plain(name: &str) -> bool {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_".contains(c);
     !name.is_empty() && name.chars().all(plain)
 }

@@ -6,6 +6,7 @@
 
 mod cost;
 mod crawl;
+mod limit;
 mod passage;
 mod search;
 mod source;
@@ -18,6 +19,7 @@ pub use cost::{
 pub use crawl::{
     CrawlExperiment, Detail, Ending, PullExperiment, SceneChoice, ServoChoice, SteeringChoice,
 };
+pub use limit::Limit;
 pub use passage::{PassageCycle, PassageExperiment, PassageSearch};
 pub use search::{
     CycleRulesChoice, CycleSearchExperiment, Ends, GaitForm, NamedGait, PullSearchExperiment, Runs,

@@ -292,6 +292,42 @@ fn identity_a_search_is_the_same_in_memory_and_stopped_and_resumed_in_a_folder()
 }
 
 #[test]
+fn limit_what_no_search_can_have() {
+    let refused = |change: fn(&mut PullSearchExperiment)| {
+        let mut experiment = pull_search();
+        change(&mut experiment);
+        let experiment = Experiment::PullSearch(Box::new(experiment));
+        run(&experiment, &Unwatched).unwrap_err().to_string()
+    };
+    let named = "a gait's name is made of letters, digits, - and _, not \"../../best\"";
+    for (said, expected) in [
+        (
+            refused(|it| it.runs.runs = u64::MAX),
+            "a search of 18446744073709552000 runs is outside 1 to 1000 runs",
+        ),
+        (
+            refused(|it| it.runs.budget = 0),
+            "a budget of 0 evaluations is outside 1 to 1000000000 evaluations",
+        ),
+        (
+            refused(|it| it.time_budget_s = Some(-1.0)),
+            "a time budget of -1 s is outside 0 to 1000000000 s",
+        ),
+        (refused(|it| it.name = "../../best".to_owned()), named),
+        (
+            refused(|it| it.name = "nominal".to_owned()),
+            "the found gait would be called \"nominal\", like one that it is compared with",
+        ),
+        (
+            refused(|it| it.form = GaitForm::BSpline { points: 3 }),
+            "a B-spline of 3 control points is outside 4..32",
+        ),
+    ] {
+        assert_eq!(said, expected);
+    }
+}
+
+#[test]
 fn a_search_of_cycles_that_was_sent() {
     let experiment = CycleSearchExperiment {
         robot: robot(),
@@ -329,6 +365,12 @@ fn a_search_of_cycles_that_was_sent() {
         let refused = run(&Experiment::CycleSearch(Box::new(asked)), &Unwatched);
         refused.unwrap_err().to_string()
     };
+    let said = refused(Under::One {
+        rules: CycleRulesChoice::default(),
+        worst_over: None,
+        name: Some("a/b".to_owned()),
+    });
+    assert!(said.contains("a gait's name is made of"), "{said}");
     for (ceilings_mm, reason) in [
         (vec![178.0, 178.0], "178 mm is there twice"),
         (vec![150.0], "150 mm is too low for NAO H25 V4"),

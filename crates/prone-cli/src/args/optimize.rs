@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
-use prone_record::experiment::GaitForm;
+use prone_record::experiment::{GaitForm, PullSearchExperiment};
 
 use super::named::GaitArg;
 use super::pull_terms::PullTermsArgs;
@@ -149,16 +149,14 @@ fn gait_form(text: &str) -> Result<GaitForm, String> {
     }
 }
 
-/// A time budget that is none, s: thirty years.
-const LONGEST_S: f64 = 1e9;
-
 fn positive(text: &str) -> Result<f64, String> {
     let seconds = super::seconds(text)?;
-    if seconds > 0.0 && seconds <= LONGEST_S {
+    if seconds > 0.0 && seconds <= PullSearchExperiment::LONGEST_S {
         Ok(seconds)
     } else {
         Err(format!(
-            "not a number of seconds greater than 0, up to {LONGEST_S}"
+            "not a number of seconds greater than 0, up to {}",
+            PullSearchExperiment::LONGEST_S
         ))
     }
 }
@@ -181,8 +179,7 @@ fn between(text: &str, least: f64, most: f64) -> Result<f64, String> {
 }
 
 fn name(text: &str) -> Result<String, String> {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_".contains(c);
-    if text.is_empty() || !text.chars().all(plain) {
+    if !prone_files::plain_name::is_plain(text) {
         return Err("a gait's name is made of letters, digits, - and _".to_owned());
     }
     Ok(text.to_owned())

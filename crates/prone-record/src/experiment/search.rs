@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::{GaitText, PullCostChoice, RobotText};
+use super::{GaitText, Limit, PullCostChoice, RobotText};
 use crate::frontier::CycleObjective;
 use crate::search::Solver;
 
@@ -17,6 +17,14 @@ pub struct Runs {
     pub runs: u64,
     /// Most evaluations of each run.
     pub budget: u64,
+}
+
+impl Runs {
+    /// Checks that a search of so many runs and evaluations can be carried out.
+    pub fn check(&self) -> Result<(), Limit> {
+        Limit::check("a search", " runs", self.runs as f64, (1.0, 1e3))?;
+        Limit::check("a budget", " evaluations", self.budget as f64, (1.0, 1e9))
+    }
 }
 
 /// A search of pulls: `prone optimize`.
@@ -34,7 +42,7 @@ pub struct PullSearchExperiment {
     pub solver: Solver,
     /// Its runs.
     pub runs: Runs,
-    /// Most seconds of searching in all.
+    /// Most seconds of searching in all, up to [`PullSearchExperiment::LONGEST_S`].
     pub time_budget_s: Option<f64>,
     /// Name of the found gait.
     pub name: String,
@@ -43,6 +51,11 @@ pub struct PullSearchExperiment {
     pub compared: Vec<GaitText>,
     /// Durations at which the found gait is simulated, s.
     pub confirm_durations_s: Vec<f64>,
+}
+
+impl PullSearchExperiment {
+    /// A time budget that is none, s: thirty years.
+    pub const LONGEST_S: f64 = 1e9;
 }
 
 /// Which curves are searched.

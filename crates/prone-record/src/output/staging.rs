@@ -5,7 +5,7 @@
 
 use std::fs::{self, File};
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use rustix::fs::{CWD, RenameFlags, renameat_with};
 use rustix::io::Errno;
@@ -117,6 +117,11 @@ impl Staging {
         let others = artefacts.iter().filter(|(name, _)| *name != RUN_FILE);
         let others = others.map(|(name, bytes)| (name.as_str(), bytes.as_slice()));
         for (name, bytes) in std::iter::once((RUN_FILE, run_file)).chain(others) {
+            let stays = |part| matches!(part, Component::Normal(_));
+            if !Path::new(name).components().all(stays) {
+                let leads_out = io::Error::other("its name leads out of the result");
+                return Err(write_error(&target.folder.join(name), leads_out));
+            }
             let path = result.join(name);
             let folder = path.parent().unwrap_or(&result);
             fs::create_dir_all(folder)

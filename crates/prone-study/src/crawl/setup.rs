@@ -8,7 +8,7 @@ use prone::scene::{Obstacle, Scene, SceneError, SideFriction};
 use prone::steering::{HeadingHold, TurnTo};
 use prone_files::{cycle_file, scene_file};
 use prone_record::experiment::{
-    ChangedText, CrawlExperiment, Detail, Ending, GaitText, SceneChoice, ServoChoice,
+    ChangedText, CrawlExperiment, Detail, Ending, GaitText, Limit, SceneChoice, ServoChoice,
     SteeringChoice, TextError,
 };
 use prone_record::record_info::CrawlOptions;
@@ -71,19 +71,8 @@ pub enum CrawlSetupError {
     #[error(transparent)]
     Scale(#[from] TimeScaleError),
     /// A number that no crawl can have.
-    #[error("{quantity} of {value}{unit} is outside {lowest} to {highest}{unit}")]
-    Limit {
-        /// What it is.
-        quantity: &'static str,
-        /// Its unit, as it follows a number.
-        unit: &'static str,
-        /// What was asked for.
-        value: f64,
-        /// Its lower bound.
-        lowest: f64,
-        /// Its upper bound.
-        highest: f64,
-    },
+    #[error(transparent)]
+    Limit(#[from] Limit),
     /// Something is drawn at random, and there is no seed.
     #[error("{drawn} cannot be drawn without a seed")]
     NoSeed {
@@ -378,28 +367,15 @@ fn steering(choice: SteeringChoice, gait: &GaitSource) -> Result<Steering, Crawl
 
 /// What can be said of an experiment before anything of it is read.
 fn check(experiment: &CrawlExperiment) -> Result<(), CrawlSetupError> {
-    let within = |quantity, unit, value: f64, (lowest, highest): (f64, f64)| {
-        // NaN is within nothing.
-        if (lowest..=highest).contains(&value) {
-            return Ok(());
-        }
-        Err(CrawlSetupError::Limit {
-            quantity,
-            unit,
-            value,
-            lowest,
-            highest,
-        })
-    };
     let (Ending::Cycles(cycles) | Ending::PastObstacles(cycles)) = experiment.ending;
     let (fewest, most) = CrawlExperiment::CYCLES_BOUNDS;
     let bounds = (fewest as f64, most as f64);
-    within("a crawl", " cycles", cycles as f64, bounds)?;
+    Limit::check("a crawl", " cycles", cycles as f64, bounds)?;
     if let Some(seconds) = experiment.time_step_s {
-        within("an engine step", " s", seconds, TIME_STEPS)?;
+        Limit::check("an engine step", " s", seconds, TIME_STEPS)?;
     }
     if let Some(degrees) = experiment.joint_offset_deg {
-        within(
+        Limit::check(
             "a calibration error",
             "°",
             degrees,
@@ -407,7 +383,7 @@ fn check(experiment: &CrawlExperiment) -> Result<(), CrawlSetupError> {
         )?;
     }
     if let SteeringChoice::Heading { degrees } = experiment.steering {
-        within(
+        Limit::check(
             "a heading",
             "°",
             degrees,

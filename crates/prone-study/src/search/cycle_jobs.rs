@@ -6,8 +6,9 @@ use prone::gait::cycle::{Cycle, TimeScale};
 use prone::regime::Regime;
 use prone::robot::Robot;
 use prone_files::cycle_file;
+use prone_files::plain_name::is_plain;
 use prone_record::experiment::{
-    CycleRulesChoice, CycleSearchExperiment, NamedGait, TextError, Under,
+    CycleRulesChoice, CycleSearchExperiment, Limit, NamedGait, TextError, Under,
 };
 use prone_record::frontier::CycleObjective;
 use prone_record::program::{Program, RobotInfo};
@@ -28,6 +29,15 @@ use crate::watch::Watch;
 /// Why cycles cannot be searched.
 #[derive(Debug, thiserror::Error)]
 pub enum CycleSearchError {
+    /// A number that no search can have.
+    #[error(transparent)]
+    Limit(#[from] Limit),
+    /// A name that is none of a file.
+    #[error("a gait's name is made of letters, digits, - and _, not {name:?}")]
+    Name {
+        /// What was asked for.
+        name: String,
+    },
     /// A cycle cannot be read.
     #[error(transparent)]
     Text(#[from] TextError),
@@ -198,7 +208,13 @@ fn check(
     ceilings: &[Ceiling],
     robot: &Robot,
 ) -> Result<(), CycleSearchError> {
+    experiment.runs.check()?;
     match &experiment.under {
+        Under::One {
+            name: Some(name), ..
+        } if !is_plain(name) => {
+            return Err(CycleSearchError::Name { name: name.clone() });
+        }
         Under::Ceilings {
             ceilings_mm,
             margin_mm,

@@ -5,7 +5,7 @@ use prone::gait::PhaseDurationError;
 use prone::mapping::MappingError;
 use prone::statics::SymmetryError;
 use prone::torque_map::ParseError;
-use prone_record::experiment::TextError;
+use prone_record::experiment::{Limit, TextError};
 use prone_sim::WorldError;
 use prone_sim::pull::PullError;
 
@@ -19,6 +19,15 @@ pub const HEAVIEST: f64 = 1e6;
 /// Why pulls have no costs, or cannot be searched.
 #[derive(Debug, thiserror::Error)]
 pub enum PullCostError {
+    /// A number that no search can have.
+    #[error(transparent)]
+    Limit(#[from] Limit),
+    /// A name that is none of a file.
+    #[error("a gait's name is made of letters, digits, - and _, not {name:?}")]
+    Name {
+        /// What was asked for.
+        name: String,
+    },
     /// A gait cannot be read.
     #[error(transparent)]
     Text(#[from] TextError),

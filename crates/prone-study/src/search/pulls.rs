@@ -4,9 +4,10 @@
 use prone::gait::{CheckedTrajectory, Gait, PhaseDuration};
 use prone::regime::Regime;
 use prone_files::gait_file;
+use prone_files::plain_name::is_plain;
 use prone_optim::Candidate;
 use prone_record::curves_info::CurvesInfo;
-use prone_record::experiment::{Ends, GaitForm, PullSearchExperiment};
+use prone_record::experiment::{Ends, GaitForm, Limit, PullSearchExperiment};
 use prone_record::gait_search::{
     self, Compared, Confirmation, Outcome, PullCost, Refusal, RunOutcome, Verdict,
 };
@@ -50,6 +51,15 @@ impl PullRun {
         robot: &LoadedRobot,
         program: &Program,
     ) -> Result<Self, PullCostError> {
+        experiment.runs.check()?;
+        if let Some(seconds) = experiment.time_budget_s {
+            let bounds = (0.0, PullSearchExperiment::LONGEST_S);
+            Limit::check("a time budget", " s", seconds, bounds)?;
+        }
+        let name = experiment.name.clone();
+        if !is_plain(&name) {
+            return Err(PullCostError::Name { name });
+        }
         let world = World::new(robot, Regime::TORQUE_STUDY)?;
         let terms = PullTerms::new(&experiment.terms, &world)?;
         let (form, ends) = (experiment.form, experiment.ends);
@@ -57,7 +67,6 @@ impl PullRun {
         if published && (form != GaitForm::Cubic || ends == Ends::Free) {
             return Err(PullCostError::PublishedForm);
         }
-        let name = experiment.name.clone();
         let mut compared = vec![terms.base.clone()];
         let mut taken = terms.base.name == name;
         for gait in &experiment.compared {
