@@ -59,9 +59,6 @@ pub fn is_cycle(text: &str) -> bool {
 }
 
 /// Reads a cycle from the text of a cycle file; `file` is the name that errors carry.
-///
-/// # Errors
-/// [`FileError`] with line and column.
 pub fn parse(file: &str, text: &str) -> Result<Cycle, FileError> {
     let source = Source { file, text };
     let table: CycleFile = source.parse()?;

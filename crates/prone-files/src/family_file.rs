@@ -30,9 +30,6 @@ pub(crate) struct FamilyFile {
 
 impl FamilyFile {
     /// Reads a `family.toml`; `file` is the name that errors carry.
-    ///
-    /// # Errors
-    /// [`FileError`] with line and column.
     pub(crate) fn parse(file: &str, text: &str) -> Result<Self, FileError> {
         let source = Source { file, text };
         let family: Self = source.parse()?;

@@ -30,9 +30,6 @@ use crate::error::{FileError, Source};
 use crate::plain_name::is_plain;
 
 /// Reads a gait from the text of a gait file; `file` is the name that errors carry.
-///
-/// # Errors
-/// [`FileError`] with line and column.
 pub fn parse(file: &str, text: &str) -> Result<Gait, FileError> {
     let source = Source { file, text };
     let gait: GaitFile = source.parse()?;

@@ -48,9 +48,6 @@ use crate::plain_name::is_plain;
 use tables::SceneFile;
 
 /// Reads a scene from the text of a scene file; `file` is the name that errors carry.
-///
-/// # Errors
-/// [`FileError`] with line and column.
 pub fn parse(file: &str, text: &str) -> Result<Scene, FileError> {
     let source = Source { file, text };
     let table: SceneFile = source.parse()?;

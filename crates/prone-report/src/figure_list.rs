@@ -39,9 +39,6 @@ impl FigureList {
     }
 
     /// Puts `figures.json` into the result.
-    ///
-    /// # Errors
-    /// [`serde_json::Error`], which entries do not produce.
     pub fn finish(self, artefacts: &mut Artefacts) -> Result<(), serde_json::Error> {
         artefacts.insert(FIGURES_FILE.to_owned(), json(&self.0)?);
         Ok(())

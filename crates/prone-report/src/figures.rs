@@ -120,9 +120,6 @@ pub struct GaitNumbers {
 }
 
 /// All figures of a study of some gaits that the records allow, in the order of their numbers.
-///
-/// # Errors
-/// [`FigureError`] where a number cannot be drawn.
 pub fn study_figures(
     gaits: &[GaitNumbers],
     chains: &[ChainRecord],

@@ -360,9 +360,6 @@ fn uninterrupted(
 }
 
 /// `timing.json`.
-///
-/// # Errors
-/// [`serde_json::Error`], which these numbers do not produce.
 pub fn timing(
     started: Instant,
     threads: usize,

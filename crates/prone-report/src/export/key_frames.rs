@@ -81,9 +81,6 @@ pub fn from_cycle(checked: &CheckedCycle, tick_s: f64) -> Result<KeyFrames, Cycl
 }
 
 /// Writes key frames as JSON.
-///
-/// # Errors
-/// [`serde_json::Error`], which these values do not produce.
 pub fn json(
     robot: &Robot,
     checked: &CheckedCycle,

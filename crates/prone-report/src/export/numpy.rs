@@ -21,9 +21,6 @@ pub struct ArchiveError(#[from] rawzip::Error);
 
 /// Makes the archive. Arrays over instants begin with their axis; a number that was not recorded is
 /// NaN.
-///
-/// # Errors
-/// [`ArchiveError`], which writing to memory does not produce.
 pub fn archive(record: &Recorded) -> Result<Vec<u8>, ArchiveError> {
     let (rows, contacts) = (&record.rows, &record.contacts);
     let joints = record.joints.len();

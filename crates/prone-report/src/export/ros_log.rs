@@ -62,9 +62,6 @@ type Pair<'a> = (usize, &'a str);
 type Wrench = (DVec3, DVec3);
 
 /// Makes the file, with chunks, indices and checksums, not compressed.
-///
-/// # Errors
-/// [`McapError`], which writing to memory does not produce.
 pub fn log(record: &Recorded) -> Result<Vec<u8>, McapError> {
     let options = WriteOptions::new()
         .profile("ros2")

@@ -10,9 +10,6 @@ use super::{Figure, FigureError, Wording};
 
 /// One panel for each joint; nothing without rows. `published` is the range that a joint swept on a
 /// robot, rad, where one is published.
-///
-/// # Errors
-/// [`FigureError`] where a number cannot be drawn.
 pub fn figure(
     record: &AngleRecord,
     published: &dyn Fn(&str) -> Option<(f64, f64)>,

@@ -11,9 +11,6 @@ use super::{Figure, FigureError, Wording};
 use prone_record::frontier::{ConfirmedSetting, CycleObjective, Found, Frontier, SettingKind};
 
 /// The ceiling against what was reached below it; `None` where nothing was found.
-///
-/// # Errors
-/// [`FigureError`] where a number cannot be drawn.
 pub fn figure(frontier: &Frontier) -> Result<Option<Figure>, FigureError> {
     let advance = panel(frontier, "advance per cycle, mm", |row| row.mm_per_cycle);
     let heat = panel(frontier, "heat per metre, s/m", |row| row.heat_per_metre_s);

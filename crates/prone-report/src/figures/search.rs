@@ -31,9 +31,6 @@ struct Meaning<'a> {
 }
 
 /// Figure 24; nothing without generations.
-///
-/// # Errors
-/// [`FigureError`] where a number cannot be drawn.
 pub fn generations(search: &SearchRecord) -> Result<Option<Figure>, FigureError> {
     let rows = &search.generations;
     if rows.is_empty() {
@@ -129,9 +126,6 @@ fn panel(rows: &[GenerationRecord], title: &str, label: &str, best_and_mean: Bes
 }
 
 /// Cost over the first gait's against duration, a panel per regime; nothing without rows.
-///
-/// # Errors
-/// [`FigureError`] where a number cannot be drawn.
 pub fn confirmation(
     rows: &[ConfirmedRecord],
     objective: &str,

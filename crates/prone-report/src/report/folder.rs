@@ -77,9 +77,6 @@ impl Folder {
     }
 
     /// A JSON file.
-    ///
-    /// # Errors
-    /// [`ReportError`] where it is missing or malformed.
     pub fn json<T: DeserializeOwned>(&self, file: &str) -> Result<T, ReportError> {
         serde_json::from_slice(&self.bytes(file)?).map_err(|source| ReportError::Json {
             file: self.path.join(file),
@@ -88,9 +85,6 @@ impl Folder {
     }
 
     /// A table, up to where it breaks off.
-    ///
-    /// # Errors
-    /// [`ReportError`] where it is missing.
     pub fn table(&self, file: &str) -> Result<CutTable, ReportError> {
         // What breaks off may break off within a letter.
         let bytes = self.bytes(file)?;
@@ -102,9 +96,6 @@ impl Folder {
     }
 
     /// A file as it is.
-    ///
-    /// # Errors
-    /// [`ReportError`] where it is missing.
     pub fn bytes(&self, file: &str) -> Result<Vec<u8>, ReportError> {
         let path = self.path.join(file);
         fs::read(&path).map_err(|source| match source.kind() {
@@ -117,9 +108,6 @@ impl Folder {
     }
 
     /// The drawings and pictures that the command made.
-    ///
-    /// # Errors
-    /// [`ReportError`] where its list is missing or malformed.
     pub fn figures(&self) -> Result<Vec<FigureEntry>, ReportError> {
         self.json(FIGURES_FILE)
     }

@@ -7,9 +7,6 @@ use resvg::tiny_skia::Pixmap;
 const COARSENESS: i32 = 10;
 
 /// A PNG file with a palette from any PNG file.
-///
-/// # Errors
-/// Why it is not one.
 pub(super) fn with_palette(png: &[u8]) -> Result<Vec<u8>, String> {
     let picture = Pixmap::decode_png(png).map_err(|error| error.to_string())?;
     let (width, height) = (picture.width(), picture.height());

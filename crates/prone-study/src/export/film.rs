@@ -122,15 +122,9 @@ pub trait Reel {
     type Error: Send;
 
     /// Encodes a picture that follows another, on any thread.
-    ///
-    /// # Errors
-    /// What the encoder says.
     fn frame(before: Option<&Picture>, now: &Picture) -> Result<Self::Frame, Self::Error>;
 
     /// Appends a picture.
-    ///
-    /// # Errors
-    /// What the encoder says.
     fn take(&mut self, frame: Self::Frame) -> Result<(), Self::Error>;
 }
 

@@ -38,9 +38,6 @@ impl GifReel {
     }
 
     /// The file.
-    ///
-    /// # Errors
-    /// [`EncodingError`], which writing to memory does not produce.
     pub fn finish(self) -> Result<Vec<u8>, EncodingError> {
         self.encoder.into_inner()
     }

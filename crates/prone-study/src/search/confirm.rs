@@ -65,9 +65,6 @@ fn in_every<S: Sync, G: Sync, R: Send>(
 }
 
 /// Cycles, each with its ceiling, m, in settings.
-///
-/// # Errors
-/// [`SearchError::Stopped`].
 pub fn cycles(
     cycles: &[(Cycle, f64)],
     settings: &[Setting],

@@ -105,9 +105,6 @@ impl PullForm {
     }
 
     /// The gait of a point; it bears the base gait's name.
-    ///
-    /// # Errors
-    /// [`CurveError`], which points within the bounds do not produce.
     pub fn gait(&self, point: &[f64]) -> Result<Gait, CurveError> {
         let mut numbers = point.iter().copied();
         let mut curve = |curve: usize| {
