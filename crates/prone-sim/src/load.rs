@@ -95,3 +95,10 @@ impl LoadedRobot {
         &self.files
     }
 }
+
+/// How a refusal calls something of the model: by its name, or by its number where it has none.
+fn label(model: &MjModel, kind: MjtObjBase, index: usize) -> String {
+    model
+        .id_to_name(kind, index)
+        .map_or_else(|| format!("number {index}"), str::to_owned)
+}

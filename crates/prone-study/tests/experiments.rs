@@ -173,7 +173,10 @@ fn an_experiment_is_stopped_and_a_changed_text_refused() {
     rows.detail = Detail::Rows;
     rows.time_step_s = Some(0.1);
     let error = run(&Experiment::Crawl(Box::new(rows)), &Unwatched).unwrap_err();
-    assert!(error.to_string().contains("0.0001..0.005 s"), "{error}");
+    assert!(
+        error.to_string().contains("outside 0.0001 to 0.005 s"),
+        "{error}"
+    );
 }
 
 fn terms() -> PullCostChoice {

@@ -4,7 +4,7 @@ use mujoco_rs::prelude::*;
 
 use prone::robot::bounds::{INERTIA, LENGTH, MASS};
 
-use super::model::label;
+use super::label;
 
 /// Checks lengths, masses and inertias of a compiled model; a refusal is a message.
 pub(super) fn check(model: &MjModel) -> Result<(), String> {

@@ -3,7 +3,7 @@
 
 use mujoco_rs::prelude::*;
 
-use super::model::label;
+use super::label;
 use crate::engine_numbers::WORLD_BODY as WORLD;
 
 /// Checks a compiled model for anything beside the robot; a refusal is a message.

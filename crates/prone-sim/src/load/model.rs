@@ -8,7 +8,7 @@ use mujoco_rs::prelude::*;
 use prone::frames::{Link, Point, Transform};
 use prone::robot::{Body, BodyId, ContactGroup, Joint, JointId, Range, Shape, Solid};
 
-use super::{bounds, foreign};
+use super::{bounds, foreign, label};
 use crate::engine_numbers::{WORLD_BODY, collides, robot_body, rotation};
 
 /// What the model says; drives and contact groups are still to be filled in.
@@ -195,11 +195,4 @@ fn read_sites(model: &MjModel) -> BTreeMap<String, Site> {
 fn name(model: &MjModel, kind: MjtObjBase, index: usize, word: &str) -> Result<String, String> {
     let name = model.id_to_name(kind, index).map(str::to_owned);
     name.ok_or_else(|| format!("{word} number {index} has no name"))
-}
-
-/// How a refusal calls something of the model: by its name, or by its number where it has none.
-pub(super) fn label(model: &MjModel, kind: MjtObjBase, index: usize) -> String {
-    model
-        .id_to_name(kind, index)
-        .map_or_else(|| format!("number {index}"), str::to_owned)
 }
