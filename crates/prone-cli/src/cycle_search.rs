@@ -145,8 +145,11 @@ fn refuse_options_of_pulls(args: &OptimizeArgs) -> Result<(), Failure> {
         ("--time-budget", args.time_budget.is_some()),
         (
             "--solver",
-            args.solver != SolverName::De && args.solver != SolverName::CmaEs,
+            !matches!(args.solver, None | Some(SolverName::CmaEs)),
         ),
+        ("--gait-form", args.gait_form.is_some()),
+        ("--ends", args.ends.is_some()),
+        ("--confirm-durations", args.confirm_durations.is_some()),
     ];
     let reason = "does not go with --source cycle, which searches whole cycles by CMA-ES";
     Failure::if_given(&given, reason)

@@ -69,7 +69,7 @@ impl Done {
             Self::Study(Outcome::Crawl(it)) => json(&it.summary),
             Self::Study(Outcome::Passage(it)) => json(&it.passage),
             Self::Study(Outcome::Cost(it)) => json(&it.cost),
-            Self::Study(Outcome::Search(it)) => json(it),
+            Self::Study(Outcome::Search(it)) => json(&it.result),
             Self::Study(Outcome::TorqueMap(it)) => json(&it.summary),
         }
     }
@@ -97,14 +97,16 @@ impl Done {
                 passage::print(&it.passage, searched, out)
             }
             Self::Study(Outcome::Cost(it)) => cost::print(it, out),
-            Self::Study(Outcome::Search(SearchResult::Pulls(it))) => {
-                optimize::print(it, out)?;
-                place(out, "gait", Some("gait.toml"))
-            }
-            Self::Study(Outcome::Search(SearchResult::Cycles(it))) => {
-                cycle_search::print(it, out)?;
-                place(out, "result", None)
-            }
+            Self::Study(Outcome::Search(done)) => match &done.result {
+                SearchResult::Pulls(it) => {
+                    optimize::print(it, out)?;
+                    place(out, "gait", Some("gait.toml"))
+                }
+                SearchResult::Cycles(it) => {
+                    cycle_search::print(it, out)?;
+                    place(out, "result", None)
+                }
+            },
             Self::Study(Outcome::TorqueMap(it)) => {
                 let map = plan.out.clone().unwrap_or_default();
                 torque_map::build::print(&it.summary, &map, out)

@@ -6,7 +6,7 @@ use clap::ValueEnum as _;
 
 use prone::regime::Regime;
 use prone_record::experiment::{
-    Ends, Experiment, PullSearchExperiment, RobotText, Runs, TorqueChoice,
+    Ends, Experiment, GaitForm, PullSearchExperiment, RobotText, Runs, TorqueChoice,
 };
 use prone_record::gait_search::Outcome;
 use prone_record::search::Solver;
@@ -46,19 +46,18 @@ fn experiment(args: &OptimizeArgs) -> Result<PullSearchExperiment, Failure> {
         TorqueChoice::Dynamics { .. } => DYNAMIC_BUDGET,
         TorqueChoice::Statics | TorqueChoice::Map(_) => BUDGET,
     };
-    let durations = args.confirm_durations.iter();
     Ok(PullSearchExperiment {
         robot: RobotText::from_files(&files),
         terms,
-        form: args.gait_form,
+        form: args.gait_form.unwrap_or(GaitForm::Cubic),
         ends: match args.ends {
-            EndsName::Fixed => Ends::Fixed,
-            EndsName::Free => Ends::Free,
+            None | Some(EndsName::Fixed) => Ends::Fixed,
+            Some(EndsName::Free) => Ends::Free,
         },
         solver: match args.solver {
-            SolverName::De => Solver::DifferentialEvolution,
-            SolverName::CmaEs => Solver::CovarianceMatrix,
-            SolverName::Ga => Solver::Genetic,
+            None | Some(SolverName::De) => Solver::DifferentialEvolution,
+            Some(SolverName::CmaEs) => Solver::CovarianceMatrix,
+            Some(SolverName::Ga) => Solver::Genetic,
         },
         runs: Runs {
             seed: args.seed,
@@ -68,7 +67,10 @@ fn experiment(args: &OptimizeArgs) -> Result<PullSearchExperiment, Failure> {
         time_budget_s: args.time_budget,
         name: gait_name(args),
         compared: compared.collect::<Result<_, Failure>>()?,
-        confirm_durations_s: durations.map(|it| it.seconds()).collect(),
+        confirm_durations_s: match &args.confirm_durations {
+            None => (1..=10).map(f64::from).collect(),
+            Some(durations) => durations.iter().map(|it| it.seconds()).collect(),
+        },
     })
 }
 

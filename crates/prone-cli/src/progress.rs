@@ -67,7 +67,7 @@ impl Progress {
         if let Some((run, best)) = search.best() {
             let (violation, value) = (best.score.violation(), best.score.value());
             self.bar.set_message(format!(
-                "best: torque {value:.4}, violations {violation:.4}, seed {}",
+                "best: {value:.4}, violations {violation:.4}, seed {}",
                 run.seed
             ));
         }

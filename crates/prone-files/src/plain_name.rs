@@ -1,7 +1,11 @@
 //! Names that become parts of file names.
 
-/// Whether a name is made of letters, digits, `-` and `_`: never empty, never a path.
+/// Longest name, bytes: with what is put before and behind it, a file's name has 255 at most.
+const LONGEST: usize = 200;
+
+/// Whether a name is made of letters, digits, `-` and `_`: never empty, never a path, not too long for
+/// a file.
 pub fn is_plain(name: &str) -> bool {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_".contains(c);
-    !name.is_empty() && name.chars().all(plain)
+    (1..=LONGEST).contains(&name.len()) && name.chars().all(plain)
 }

@@ -23,7 +23,7 @@ pub use limit::Limit;
 pub use passage::{PassageCycle, PassageExperiment, PassageSearch};
 pub use search::{
     CycleRulesChoice, CycleSearchExperiment, Ends, GaitForm, NamedGait, PullSearchExperiment, Runs,
-    Under,
+    Under, check_heights,
 };
 pub use source::{ChangedText, GaitText, RobotText, SceneText, TextError, TextFile};
 pub use torque_map::{MapSource, TorqueMapExperiment};

@@ -21,7 +21,7 @@ use prone::regime::Regime;
 use prone_files::{cycle_file, gait_file};
 use prone_record::crawl_summary::CrawlSummary;
 use prone_record::experiment::{
-    CrawlExperiment, Detail, Experiment, PassageExperiment, PullExperiment,
+    CrawlExperiment, Detail, Experiment, PassageExperiment, PullExperiment, check_heights,
 };
 use prone_record::lock::Lock;
 use prone_record::output::{self, Artefacts};
@@ -29,7 +29,6 @@ use prone_record::program::Program;
 use prone_record::pulls::PullRecord;
 use prone_record::recorded::Command;
 use prone_record::resumption::Opening;
-use prone_record::search_result::SearchResult;
 use prone_record::single_file;
 use prone_sim::crawl::CrawlError;
 use prone_sim::pull::{self, Keep, Start};
@@ -41,6 +40,7 @@ use crate::crawl::{self, CrawlRunError, CrawlSetup, summary};
 use crate::pulls::pull_record;
 use crate::search::passage::{self, Passage};
 use crate::search::room::NoRoom;
+use crate::search::run::Done;
 use crate::search::settings;
 use crate::watch::Watch;
 
@@ -85,7 +85,7 @@ pub enum Outcome {
     /// The cost of a pull.
     Cost(Box<CostOutcome>),
     /// Of a search.
-    Search(SearchResult),
+    Search(Box<Done>),
     /// Of a torque map.
     TorqueMap(Box<MapOutcome>),
 }
@@ -147,10 +147,14 @@ impl Session {
             Experiment::Passage(it) => Outcome::Passage(Box::new(self.passage(it, watch)?)),
             Experiment::Cost(it) => {
                 let robot = LoadedRobot::load(it.robot.files()?)?;
-                Outcome::Cost(Box::new(search::cost(it, &robot)?))
+                let cost = search::cost(it, &robot)?;
+                if watch.stop() {
+                    return Err(RunError::Stopped);
+                }
+                Outcome::Cost(Box::new(cost))
             }
-            Experiment::PullSearch(it) => Outcome::Search(self.pull_search(it, watch)?),
-            Experiment::CycleSearch(it) => Outcome::Search(self.cycle_search(it, watch)?),
+            Experiment::PullSearch(it) => Outcome::Search(Box::new(self.pull_search(it, watch)?)),
+            Experiment::CycleSearch(it) => Outcome::Search(Box::new(self.cycle_search(it, watch)?)),
             Experiment::TorqueMap(it) => Outcome::TorqueMap(Box::new(self.torque_map(it, watch)?)),
         })
     }
@@ -260,6 +264,7 @@ impl Session {
         watch: &dyn Watch,
     ) -> Result<PassageOutcome, RunError> {
         let (ceiling_mm, margin_mm) = (experiment.ceiling_mm, experiment.margin_mm);
+        check_heights(ceiling_mm, margin_mm)?;
         NoRoom::check(ceiling_mm, margin_mm)?;
         if let Some(place) = &self.place {
             single_file::check_place(&place.path).map_err(RunError::PlaceOfFile)?;

@@ -91,13 +91,20 @@ fn a_passage_names_the_cycle_that_fits() {
     };
     assert!(outcome.passage.feasible);
     assert_eq!(outcome.cycle.unwrap().pull.name, "low-165");
-    for margin_mm in [172.0, f64::NAN] {
+    for (margin_mm, expected) in [
+        (
+            172.0,
+            "a margin of 172 mm leaves no room under a ceiling of 172 mm",
+        ),
+        (f64::NAN, "a margin of NaN mm is outside 0 to 1000 mm"),
+        (-50.0, "a margin of -50 mm is outside 0 to 1000 mm"),
+    ] {
         let none = PassageExperiment {
             margin_mm,
             ..passage.clone()
         };
         let error = run(&Experiment::Passage(Box::new(none)), &Unwatched).unwrap_err();
-        assert!(matches!(error, RunError::NoRoom { .. }), "{error}");
+        assert_eq!(error.to_string(), expected);
     }
 }
 
@@ -270,7 +277,10 @@ fn identity_a_search_is_the_same_in_memory_and_stopped_and_resumed_in_a_folder()
     let out = home.path().join("found");
     let experiment = Experiment::PullSearch(Box::new(pull_search()));
     let text = |outcome| match outcome {
-        Outcome::Search(result @ SearchResult::Pulls(_)) => serde_json::to_string(&result).unwrap(),
+        Outcome::Search(done) => {
+            assert!(done.artefacts.contains_key("gait.toml"));
+            serde_json::to_string(&done.result).unwrap()
+        }
         other => panic!("a search was asked for: {other:?}"),
     };
     let in_memory = text(run(&sent(&experiment), &Unwatched).unwrap());
@@ -292,6 +302,31 @@ fn identity_a_search_is_the_same_in_memory_and_stopped_and_resumed_in_a_folder()
     let resumed = put(&out, Opening::Resume).run(&experiment, &Unwatched);
     assert_eq!(text(resumed.unwrap()), in_memory);
     assert!(out.join("gait.toml").exists() && !checkpoint.exists());
+}
+
+#[test]
+fn limit_a_key_that_an_experiment_does_not_have() {
+    let mut sent = serde_json::to_value(Experiment::PullSearch(Box::new(pull_search()))).unwrap();
+    assert!(serde_json::from_value::<Experiment>(sent.clone()).is_ok());
+    for place in [
+        "",
+        "/runs",
+        "/terms",
+        "/terms/objective/heat/rules",
+        "/robot",
+    ] {
+        let mut wrong = sent.clone();
+        wrong.pointer_mut(place).unwrap()["ceilling_mm"] = 178.into();
+        let refused = serde_json::from_value::<Experiment>(wrong)
+            .unwrap_err()
+            .to_string();
+        assert!(refused.contains("ceilling_mm"), "{place}: {refused}");
+    }
+    sent["runs"].as_object_mut().unwrap().remove("seed");
+    let refused = serde_json::from_value::<Experiment>(sent)
+        .unwrap_err()
+        .to_string();
+    assert!(refused.contains("seed"), "{refused}");
 }
 
 #[test]
@@ -356,7 +391,11 @@ fn a_search_of_cycles_that_was_sent() {
         },
     };
     let asked = sent(&Experiment::CycleSearch(Box::new(experiment.clone())));
-    let Outcome::Search(SearchResult::Cycles(found)) = run(&asked, &Unwatched).unwrap() else {
+    let Outcome::Search(done) = run(&asked, &Unwatched).unwrap() else {
+        panic!("a search was asked for");
+    };
+    assert!(done.artefacts.contains_key("gaits/low-seed-1.toml"));
+    let SearchResult::Cycles(found) = done.result else {
         panic!("a search of cycles was asked for");
     };
     assert_eq!(found.found[0].gait, "low-seed-1");
@@ -378,6 +417,10 @@ fn a_search_of_cycles_that_was_sent() {
         (vec![178.0, 178.0], "178 mm is there twice"),
         (vec![150.0], "150 mm is too low for NAO H25 V4"),
         (vec![1.0], "a margin of 1 mm leaves no room"),
+        (
+            vec![f64::NAN],
+            "a ceiling of NaN mm is outside 1 to 10000 mm",
+        ),
     ] {
         let said = refused(Under::Ceilings {
             ceilings_mm,

@@ -53,22 +53,22 @@ threads, except with --time-budget.")]
 pub(crate) struct OptimizeArgs {
     #[command(flatten)]
     pub(crate) terms: PullTermsArgs,
-    /// Curves that are searched: `cubic`, or `bspline:N` with N control points each
-    #[arg(long, value_name = "FORM", value_parser = gait_form, default_value = "cubic")]
-    pub(crate) gait_form: GaitForm,
-    /// Whether knee and hip begin and end as in the gait of --from
-    #[arg(long, value_enum, default_value = "fixed")]
-    pub(crate) ends: EndsName,
-    /// Method of search
-    #[arg(long, value_enum, default_value = "de")]
-    pub(crate) solver: SolverName,
+    /// Curves that are searched: `cubic`, or `bspline:N` with N control points each [default: cubic]
+    #[arg(long, value_name = "FORM", value_parser = gait_form)]
+    pub(crate) gait_form: Option<GaitForm>,
+    /// Whether knee and hip begin and end as in the gait of --from [default: fixed]
+    #[arg(long, value_enum)]
+    pub(crate) ends: Option<EndsName>,
+    /// Method of search [default: de, with cycle cma-es]
+    #[arg(long, value_enum)]
+    pub(crate) solver: Option<SolverName>,
     /// Seed of the first run; the others follow
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub(crate) seed: u64,
     /// Independent runs, with the seeds S, S+1, …; the best of all is kept
     #[arg(long, value_name = "R", default_value = "1", value_parser = clap::value_parser!(u64).range(1..=1000))]
     pub(crate) runs: u64,
-    /// Most evaluations of each run [default: 3000 with dynamics, else 100000]
+    /// Most evaluations of each run [default: 1600 with cycle, 3000 with dynamics, else 100000]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     pub(crate) budget: Option<u64>,
     /// Most seconds of searching in all; what is found by then is kept
@@ -78,9 +78,9 @@ pub(crate) struct OptimizeArgs {
     /// than it was
     #[arg(long)]
     pub(crate) resume: bool,
-    /// Durations at which the found gait is simulated, s
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = super::phase_duration, default_value = "1,2,3,4,5,6,7,8,9,10")]
-    pub(crate) confirm_durations: Vec<prone::gait::PhaseDuration>,
+    /// Durations at which the found gait is simulated, s [default: 1,2,3,4,5,6,7,8,9,10]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = super::phase_duration)]
+    pub(crate) confirm_durations: Option<Vec<prone::gait::PhaseDuration>>,
     /// cycle: height below which everything stays, mm [default: none]
     #[arg(long, value_name = "H", value_parser = super::passage::height, allow_negative_numbers = true)]
     pub(crate) ceiling_mm: Option<f64>,
@@ -120,9 +120,9 @@ pub(crate) struct OptimizeArgs {
 /// Whether ends are kept.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum EndsName {
-    /// They do
+    /// Knee and hip begin and end as in the gait of --from
     Fixed,
-    /// They are searched too; those of the upper arm, which set the stroke, are not
+    /// Both ends are searched too; those of the upper arm, which set the stroke, are not
     Free,
 }
 

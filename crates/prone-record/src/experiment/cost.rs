@@ -2,10 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{GaitText, RobotText, TextFile};
+use super::{GaitText, Limit, RobotText, TextFile};
 
 /// The cost of one pull.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct CostExperiment {
     /// The robot that would pull.
     pub robot: RobotText,
@@ -17,6 +18,7 @@ pub struct CostExperiment {
 
 /// What the costs of pulls are made of.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PullCostChoice {
     /// What is minimised, and by which rules.
     pub objective: PullObjective,
@@ -58,6 +60,7 @@ pub enum PullObjective {
 
 /// The rules of an objective with graded violations.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PullRules {
     /// Whether a cost is that of a pull or of a metre of planned advance.
     pub per: Share,
@@ -69,6 +72,21 @@ pub struct PullRules {
     pub clearance: ClearanceChoice,
     /// How far past its stop a joint may be commanded in the plan.
     pub limits: LimitsChoice,
+}
+
+impl PullRules {
+    /// Checks that every rule that is asked for is one.
+    pub fn check(&self) -> Result<(), Limit> {
+        if let Some(degrees) = self.rate_deg_per_phase {
+            Limit::check("a rate", "° per pull", degrees, (0.001, f64::MAX))?;
+        }
+        match self.clearance {
+            ClearanceChoice::HipMm(mm) | ClearanceChoice::BodyMm(mm) => {
+                Limit::check("a clearance", " mm", mm, (f64::MIN_POSITIVE, f64::MAX))
+            }
+            ClearanceChoice::None | ClearanceChoice::Base => Ok(()),
+        }
+    }
 }
 
 /// Whether a cost is that of a pull or of a metre of planned advance.

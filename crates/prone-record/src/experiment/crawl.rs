@@ -6,6 +6,7 @@ use super::{GaitText, RobotText, SceneText};
 
 /// One closed-chain phase in the regime of the torque study, from the gait's own first pose.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PullExperiment {
     /// The robot that pulls.
     pub robot: RobotText,
@@ -17,6 +18,7 @@ pub struct PullExperiment {
 
 /// Whole cycles in a scene, in the regime `locomotion`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct CrawlExperiment {
     /// The robot that crawls.
     pub robot: RobotText,
@@ -46,6 +48,7 @@ pub struct CrawlExperiment {
 
 /// Where a crawl takes place: a level floor, and what is put on it or changed of it.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct SceneChoice {
     /// A scene's file, in place of the level floor.
     pub text: Option<SceneText>,

@@ -6,6 +6,7 @@ use super::{GaitText, RobotText};
 
 /// Cycles crawled under a ceiling, and a search where none of them fits.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PassageExperiment {
     /// Which robot.
     pub robot: RobotText,
@@ -21,6 +22,7 @@ pub struct PassageExperiment {
 
 /// A cycle, and where it comes from.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PassageCycle {
     /// Its file.
     pub gait: GaitText,
@@ -30,6 +32,7 @@ pub struct PassageCycle {
 
 /// A search of a lower cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PassageSearch {
     /// Its seed.
     pub seed: u64,

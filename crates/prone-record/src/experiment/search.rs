@@ -10,6 +10,7 @@ use crate::search::Solver;
 
 /// Runs of a search with seeds that follow one another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Runs {
     /// Seed of the first run.
     pub seed: u64,
@@ -29,6 +30,7 @@ impl Runs {
 
 /// A search of pulls: `prone optimize`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PullSearchExperiment {
     /// The robot that would pull.
     pub robot: RobotText,
@@ -92,6 +94,7 @@ pub enum Ends {
 
 /// A search of whole cycles: `prone optimize --source cycle`, and `prone crawl frontier`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct CycleSearchExperiment {
     /// The robot that would crawl.
     pub robot: RobotText,
@@ -133,6 +136,7 @@ pub enum Under {
 
 /// Rules of a search of cycles; the usual one where there is none.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct CycleRulesChoice {
     /// Height below which everything stays, mm.
     pub ceiling_mm: Option<f64>,
@@ -146,8 +150,49 @@ pub struct CycleRulesChoice {
     pub most_heat: Option<f64>,
 }
 
+impl CycleRulesChoice {
+    /// Heights and advances, mm: from one that can be measured to one that is none.
+    pub const LENGTHS_MM: (f64, f64) = (1.0, 1e4);
+
+    /// Torques and heats.
+    pub const EFFORTS: (f64, f64) = (0.01, 1e3);
+
+    /// Checks that every rule that is asked for is one.
+    pub fn check(&self) -> Result<(), Limit> {
+        let (lengths, efforts) = (Self::LENGTHS_MM, Self::EFFORTS);
+        let rules = [
+            ("a ceiling", " mm", self.ceiling_mm, lengths),
+            ("a least advance", " mm", self.least_advance_mm, lengths),
+            (
+                "a demanded torque",
+                " N·m",
+                self.demanded_shoulder_nm,
+                efforts,
+            ),
+            (
+                "a share of the weight",
+                " %",
+                self.body_share_percent,
+                (0.0, 100.0),
+            ),
+            ("a heat", "", self.most_heat, efforts),
+        ];
+        let asked = |(what, unit, value, bounds): (_, _, Option<f64>, _)| {
+            value.map_or(Ok(()), |value| Limit::check(what, unit, value, bounds))
+        };
+        rules.into_iter().try_for_each(asked)
+    }
+}
+
+/// Checks a ceiling and a margin, mm.
+pub fn check_heights(ceiling_mm: f64, margin_mm: f64) -> Result<(), Limit> {
+    Limit::check("a ceiling", " mm", ceiling_mm, CycleRulesChoice::LENGTHS_MM)?;
+    Limit::check("a margin", " mm", margin_mm, (0.0, 1e3))
+}
+
 /// A gait, and how it was called by whoever asked.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct NamedGait {
     /// As it was called: a name or a path.
     pub called: String,

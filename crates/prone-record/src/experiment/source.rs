@@ -8,6 +8,7 @@ use prone_files::{FileError, text_file};
 
 /// A robot's two texts.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct RobotText {
     /// Its folder, as shown to a user.
     pub folder: String,
@@ -25,6 +26,7 @@ pub struct RobotText {
 
 /// The text of a file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct TextFile {
     /// Its path, as the user named it, or the name of one that ships.
     pub file: String,

@@ -6,6 +6,7 @@ use super::RobotText;
 
 /// Torques at every node of a grid over θ3, θ4 and α, under the conditions of the published table.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct TorqueMapExperiment {
     /// The robot whose torques are measured.
     pub robot: RobotText,

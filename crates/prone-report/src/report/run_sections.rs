@@ -107,7 +107,7 @@ pub(super) fn what_was_run(runs: &[Run]) -> Markup {
                 @let head = &run.folder.head;
                 h3 { (run.folder.name) }
                 dl {
-                    dt { "command" } dd { "prone " (head.command) ", built from commit " (head.commit) }
+                    dt { "command" } dd { (head.command) ", by prone built from commit " (head.commit) }
                     @if let Some(engine) = &head.engine { dt { "engine" } dd { (engine) } }
                     (run.facts)
                 }

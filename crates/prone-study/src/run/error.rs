@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use rayon::ThreadPoolBuildError;
 
 use prone::gait::PhaseDurationError;
-use prone_record::experiment::{ChangedText, TextError};
+use prone_record::experiment::{ChangedText, Limit, TextError};
 use prone_record::lock::LockError;
 use prone_record::output::OutputError;
 use prone_record::resumption::ResumptionError;
@@ -26,6 +26,9 @@ use crate::torque_map::BuildError;
 /// Why an experiment has no outcome.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
+    /// A number that no experiment can have.
+    #[error(transparent)]
+    Limit(#[from] Limit),
     /// The robot's text is not the one that was asked for.
     #[error(transparent)]
     Changed(#[from] ChangedText),
@@ -149,8 +152,11 @@ impl RunError {
             Self::Search(error) => !matches!(**error, SearchError::Nothing { .. }),
             Self::Build(error) => error.is_work(),
             Self::Resumption(error) => matches!(**error, ResumptionError::Write(_)),
-            Self::Pull(_)
-            | Self::Record(_)
+            Self::Pull(error) => !matches!(
+                error,
+                PullError::Trajectory(_) | PullError::StartPosture { .. }
+            ),
+            Self::Record(_)
             | Self::Publish(_)
             | Self::PublishFile { .. }
             | Self::Json(_)

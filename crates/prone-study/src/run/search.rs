@@ -9,7 +9,6 @@ use prone_record::experiment::{CostExperiment, CycleSearchExperiment, PullSearch
 use prone_record::gait_search::PullCost;
 use prone_record::resumption::{Earlier, Opening, Snapshot, Work};
 use prone_record::search::{Search, SearchEnd};
-use prone_record::search_result::SearchResult;
 use prone_sim::{LoadedRobot, World};
 
 use super::{RunError, Session};
@@ -19,7 +18,7 @@ use crate::search::pull_cost::PullCosts;
 use crate::search::pull_error::PullCostError;
 use crate::search::pull_terms::{PullAim, PullTerms, Share, check_advance};
 use crate::search::pulls::PullRun;
-use crate::search::run::{self, SearchRun};
+use crate::search::run::{self, Done, SearchRun};
 use crate::watch::{Found, Progress, Watch};
 
 /// What a pull costs.
@@ -69,7 +68,8 @@ impl Session {
         &self,
         experiment: &PullSearchExperiment,
         watch: &dyn Watch,
-    ) -> Result<SearchResult, RunError> {
+    ) -> Result<Done, RunError> {
+        self.check_place()?;
         let robot = LoadedRobot::load(experiment.robot.files()?)?;
         let run = PullRun::new(experiment, &robot, &self.program)?;
         let time = experiment.time_budget_s.map(Duration::from_secs_f64);
@@ -80,7 +80,8 @@ impl Session {
         &self,
         experiment: &CycleSearchExperiment,
         watch: &dyn Watch,
-    ) -> Result<SearchResult, RunError> {
+    ) -> Result<Done, RunError> {
+        self.check_place()?;
         let robot = LoadedRobot::load(experiment.robot.files()?)?;
         let run = CycleRun::new(experiment, &robot, &self.program, watch)?;
         self.search(&run, None, watch)
@@ -92,8 +93,11 @@ impl Session {
         run: &R,
         time: Option<Duration>,
         watch: &dyn Watch,
-    ) -> Result<SearchResult, RunError> {
-        self.check_place()?;
+    ) -> Result<Done, RunError> {
+        // What an earlier search has left is not replaced by one that did nothing.
+        if watch.stop() {
+            return Err(RunError::Stopped);
+        }
         let pool = self.pool()?;
         let mut checkpoint = None;
         let mut searches = run::begin(run);
@@ -110,9 +114,11 @@ impl Session {
         let kept = checkpoint.as_mut();
         let done = pool.install(|| run::run(run, &mut searches, time, watch, kept));
         let kept = |error| match (error, &checkpoint) {
-            (RunError::Stopped, Some(checkpoint)) => RunError::StoppedSearch {
-                checkpoint: checkpoint.path().to_owned(),
-            },
+            (RunError::Stopped, Some(checkpoint)) if checkpoint.path().exists() => {
+                RunError::StoppedSearch {
+                    checkpoint: checkpoint.path().to_owned(),
+                }
+            }
             (error, _) => error,
         };
         let done = done.map_err(|error| kept(error.into()))?;
@@ -122,7 +128,7 @@ impl Session {
             _ => Ok(()),
         });
         published.map_err(kept)?;
-        Ok(done.result)
+        Ok(done)
     }
 }
 

@@ -8,7 +8,7 @@ use prone::robot::Robot;
 use prone_files::cycle_file;
 use prone_files::plain_name::is_plain;
 use prone_record::experiment::{
-    CycleRulesChoice, CycleSearchExperiment, Limit, NamedGait, TextError, Under,
+    CycleRulesChoice, CycleSearchExperiment, Limit, NamedGait, TextError, Under, check_heights,
 };
 use prone_record::frontier::CycleObjective;
 use prone_record::program::{Program, RobotInfo};
@@ -162,6 +162,13 @@ pub fn plan(
     let engine = prone_sim::engine_version();
     let solver = Solver::AboutTheMiddle;
     let mut head = SearchHead::new(program, command, engine, solver, experiment.runs);
+    if let Under::One {
+        worst_over: Some(other),
+        ..
+    } = &experiment.under
+    {
+        head.add_base(&other.called, &other.gait.text);
+    }
     for (_, base) in jobs {
         head.add_base(&base.pull.name, &cycle_file::write(base, ""));
     }
@@ -224,12 +231,14 @@ fn check(
                 if ceilings_mm[..index].iter().any(same) {
                     return Err(CycleSearchError::CeilingTwice { mm: *mm });
                 }
+                check_heights(*mm, *margin_mm)?;
                 NoRoom::check(*mm, *margin_mm)?;
             }
         }
         Under::One {
             rules, worst_over, ..
         } => {
+            rules.check()?;
             let objective = experiment.objective;
             let several = matches!(objective, CycleObjective::Heat | CycleObjective::Peak);
             let heats = [

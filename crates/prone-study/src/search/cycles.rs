@@ -193,6 +193,9 @@ impl SearchRun for CycleRun {
         for (job, search) in self.jobs.iter().zip(searches) {
             let ceiling = job.ceiling_mm.map_or(f64::INFINITY, |mm| mm * 1e-3);
             for run in search.runs() {
+                if watch.stop() {
+                    return Err(SearchError::Stopped);
+                }
                 if let Some((cycle, record)) = self.found(job, run)? {
                     cycles.push((cycle, ceiling));
                     found.push(record);

@@ -63,7 +63,7 @@ pub struct Tried {
     pub mm_per_s: f64,
     /// Largest actuator torque over the manufacturer's effort limit.
     pub peak_torque_over_rated: f64,
-    /// Whose.
+    /// Name of the joint that reaches it.
     pub peak_joint: String,
 }
 

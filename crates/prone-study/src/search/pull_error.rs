@@ -88,6 +88,9 @@ pub enum PullCostError {
         /// The gait's name.
         gait: String,
     },
+    /// A peak does not add up.
+    #[error("there is no peak per metre: a peak does not add up")]
+    PeakPerMetre,
     /// The robot lacks what the objective needs.
     #[error(transparent)]
     NoMotor(#[from] NoMotor),

@@ -12,7 +12,7 @@ use prone::robot::Robot;
 use prone::torque_map::{self, TorqueMap};
 use prone_files::gait_file;
 use prone_record::experiment::{
-    BodyShareOf, ClearanceChoice, LimitsChoice, PullCostChoice, PullObjective, PullRules,
+    BodyShareOf, ClearanceChoice, Limit, LimitsChoice, PullCostChoice, PullObjective, PullRules,
     TextError, TorqueChoice,
 };
 use prone_record::program::RobotInfo;
@@ -89,6 +89,9 @@ impl PullTerms {
                 hip_threshold_mm,
                 limit_tolerance_rad,
             } => {
+                let not_negative = (0.0, f64::MAX);
+                Limit::check("a height", " mm", hip_threshold_mm, not_negative)?;
+                Limit::check("a tolerance", " rad", limit_tolerance_rad, not_negative)?;
                 let published = PublishedRules {
                     hip_threshold: hip_threshold_mm / 1e3,
                     limit_tolerance: limit_tolerance_rad,
@@ -114,6 +117,10 @@ impl PullTerms {
             PullObjective::Peak { rules } => (Objective::Peak, rules),
             PullObjective::Heat { rules } => (Objective::Heat, rules),
         };
+        rules.check()?;
+        if objective == Objective::Peak && rules.per == Share::Metre {
+            return Err(PullCostError::PeakPerMetre);
+        }
         let duration = PhaseDuration::new(rules.duration_s)?;
         if rules.per == Share::Metre {
             check_advance(world.robot(), &base)?;

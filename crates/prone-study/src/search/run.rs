@@ -132,6 +132,10 @@ pub fn run<R: SearchRun>(
             break;
         }
     }
+    if searches.iter().all(|search| search.best().is_none()) {
+        let budget = searches.iter().map(Search::allowance).sum();
+        return Err(SearchError::Nothing { budget });
+    }
     let searched = started.elapsed();
     let (result, mut artefacts) = run.conclude(searches, end, watch)?;
     if watch.stop() {
@@ -187,7 +191,7 @@ fn proceed<C: Candidates>(
     });
     kept?;
     // The confirmation may still be stopped.
-    if let (Some(checkpoint), true) = (checkpoint, search.best().is_some() || watch.stop()) {
+    if let (Some(checkpoint), true) = (checkpoint, search.best().is_some()) {
         checkpoint.write(&all(search))?;
     }
     Ok(end)
