@@ -64,7 +64,7 @@ pub(crate) enum Command {
     Export(ExportArgs),
     /// Search a better gait, and simulate what is found beside the published ones
     Optimize(Box<optimize::OptimizeArgs>),
-    /// Price one gait
+    /// Tell what one gait costs
     Cost(optimize::CostArgs),
     /// Look at gaits
     #[command(subcommand)]

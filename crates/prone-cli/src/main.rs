@@ -1,4 +1,4 @@
-//! The command line of prone: arguments become a plan, a plan becomes calls.
+//! The command line of prone: arguments become a plan with an experiment, which one dispatcher runs.
 //!
 //! Results go to standard output, everything else to standard error. Exit codes: 0 done, 1 the
 //! work failed, 2 wrong input (nothing is written, but by `export` what is readable of a record that

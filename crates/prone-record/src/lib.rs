@@ -1,5 +1,6 @@
 //! Records: what an experiment leaves behind, as types and as files. No physics engine is linked here.
 //!
+//! [`experiment`] is what is asked for. [`resumption`] keeps unfinished work, under a [`lock`];
 //! [`output`] puts result folders in place whole or not at all; [`recorded`] reads the record of a
 //! crawl or a pull, whoever made it. The other modules hold what results say.
 

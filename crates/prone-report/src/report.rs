@@ -1,9 +1,9 @@
 //! The report: result folders as one HTML page that loads nothing, with figures beside it.
 //!
 //! It reads records and computes no physics: drawings are made from tables again, what the engine's
-//! camera saw is shown as it was recorded. `folder` and `cut_table` read files; a `run` is what was read
-//! of one folder, by its modules or, of its own results, by a [`Publication`]. `shown` are the figures that there are; `card` is the report card; `page`, `figure_html` and
-//! the `…sections` write.
+//! camera saw is shown as it was recorded. `folder` and `cut_table` read files. A `run` is what was read
+//! of one folder; a [`Publication`] reads the folders of its own command. `shown` holds the figures that
+//! there are, `card` the report card; `page`, `figure_html` and the `…sections` write.
 
 mod card;
 mod card_sections;

@@ -44,7 +44,7 @@ pub struct Snapshot(Vec<f64>);
 pub struct StepMeans {
     /// **Actuator torque** of each joint about its axis, N·m.
     pub actuator_torque: Vec<f64>,
-    /// Normal contact force by [`ContactGroup::ALL`], both sides together, N.
+    /// Normal contact force by [`prone::robot::ContactGroup::ALL`], both sides together, N.
     pub contact: [f64; 4],
 }
 
@@ -169,7 +169,7 @@ impl Simulation {
         self.world.regime().time_step
     }
 
-    /// Normal force of the ground now by [`ContactGroup::ALL`], both sides together, N.
+    /// Normal force of the ground now by [`prone::robot::ContactGroup::ALL`], both sides together, N.
     pub fn ground_contact(&self) -> [f64; 4] {
         let mut forces = [0.0; 4];
         self.add_contacts(&mut forces);

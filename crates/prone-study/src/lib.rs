@@ -1,6 +1,6 @@
 //! Experiments with crawl gaits: what simulates and what searches, from a robot to a record.
 //!
-//! [`crawl`] and [`pulls`] turn what was simulated into records, [`search`]
+//! [`run`] is the entry: it runs an experiment of any kind. [`crawl`] and [`pulls`] turn what was simulated into records, [`search`]
 //! searches, [`torque_map`] measures maps, [`export`] takes films; [`watch`] is how whoever waits for
 //! them is told.
 

@@ -1,4 +1,4 @@
-//! Prices by simulation, and what searches find, against published and recorded figures.
+//! Costs by simulation, and what searches find, against published and recorded figures.
 //!
 //! The author's tables lie outside the repository: in the directory that `PRONE_REFERENCE_DIR`
 //! names, or in `../shared/reference` beside it. Where they are absent the tests that need them say

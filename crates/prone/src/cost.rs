@@ -1,6 +1,6 @@
 //! What a crawl costs.
 //!
-//! [`squared_torque_integral`] prices a record as the published study does; [`published`] repeats
+//! [`squared_torque_integral`] costs a record as the published study does; [`published`] repeats
 //! the original objective to the digit; [`graded`] keeps torque and violations apart and compares
 //! them in that order of importance.
 

@@ -1,4 +1,4 @@
-//! What a gait is priced by, in the robot's own figures.
+//! What the cost of a gait is made of, in the robot's own figures.
 
 use super::graded::Norm;
 use crate::robot::Robot;
