@@ -170,7 +170,7 @@ impl Session {
         })
     }
 
-    /// The same, and locks the place: of two runs into one folder, the first to end would be lost.
+    /// Checks the place and locks it: of two runs into one folder, the first to end would be lost.
     /// `what` names them in the error of the second.
     fn lock(&self, what: &'static str) -> Result<Option<Lock>, RunError> {
         self.check_place()?;

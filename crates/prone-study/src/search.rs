@@ -12,6 +12,10 @@
 //! 4. [`confirm`] simulates what was found, beside other gaits, in settings that the search did not
 //!    look at.
 //! 5. [`pulls`] and [`cycles`] put the result together: the record and its folder.
+//!
+//! What was asked for becomes this in [`pull_terms`] and [`cycle_jobs`], with [`pull_error`] and [`room`]
+//! for what cannot be searched. [`settings`] are the settings of cycles, of which [`trial`] crawls one;
+//! [`steering`] tells whether a found cycle can be steered, and [`passage`] answers `crawl under`.
 
 pub mod candidates;
 pub mod chain_rules;

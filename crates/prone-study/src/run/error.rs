@@ -94,7 +94,7 @@ pub enum RunError {
     /// The result cannot be put where it should be; nothing was done.
     #[error(transparent)]
     Place(OutputError),
-    /// The same for a result that is one file.
+    /// A result that is one file cannot be put where it should be; nothing was done.
     #[error(transparent)]
     PlaceOfFile(WriteError),
     /// Another process makes the same result.
@@ -103,7 +103,7 @@ pub enum RunError {
     /// The result is there, and cannot be put in place.
     #[error(transparent)]
     Publish(#[from] OutputError),
-    /// The same for a result that is one file; rows of a torque map stay in its journal.
+    /// A result that is one file is there, and cannot be written; rows of a torque map stay in its journal.
     #[error("{source}{}", kept(journal.as_ref()))]
     PublishFile {
         /// Why.
@@ -120,13 +120,13 @@ pub enum RunError {
     /// [`Watch::stop`](crate::watch::Watch::stop) said so; nothing is kept.
     #[error("stopped")]
     Stopped,
-    /// The same; what was searched so far is in the checkpoint.
+    /// A search was stopped; what was searched so far is in its checkpoint.
     #[error("stopped; the search is kept in {}", checkpoint.display())]
     StoppedSearch {
         /// The checkpoint.
         checkpoint: PathBuf,
     },
-    /// The same; rows of a torque map are in its journal.
+    /// A torque map was stopped; the rows that were measured are in its journal.
     #[error("stopped; {done} of {rows} rows are in {}", journal.display())]
     StoppedMap {
         /// Rows done.
