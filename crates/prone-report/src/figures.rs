@@ -36,7 +36,9 @@ pub(crate) use axis::extremes;
 pub use crawl_angles::figure as crawl_angles;
 pub use frontier::figure as frontier_figure;
 pub(crate) use parameters::figure as parameters;
-pub use records::{AngleRecord, AngleRow, ConfirmedRecord, GenerationRecord, Scores, SearchRecord};
+pub use records::{
+    AngleRecord, AngleRow, ConfirmedRecord, GenerationRecord, PublishedRange, Scores, SearchRecord,
+};
 pub use search::{confirmation, generations};
 pub(crate) use selection::each_once;
 

@@ -30,6 +30,7 @@ use prone_record::pulls::PullRecord;
 use prone_record::recorded::Command;
 use prone_record::resumption::Opening;
 use prone_record::single_file;
+use prone_report::figures::PublishedRange;
 use prone_sim::crawl::CrawlError;
 use prone_sim::pull::{self, Keep, Start};
 use prone_sim::{LoadedRobot, World};
@@ -48,8 +49,8 @@ pub use error::RunError;
 pub use search::CostOutcome;
 pub use torque_map::MapOutcome;
 
-/// The range that a joint swept on a robot, rad, where one is published.
-pub type JointRanges = Arc<dyn Fn(&str) -> Option<(f64, f64)> + Send + Sync>;
+/// The range that a joint swept on a robot, where one is published.
+pub type JointRanges = Arc<dyn Fn(&str) -> Option<PublishedRange> + Send + Sync>;
 
 /// How experiments are run.
 #[derive(Clone)]

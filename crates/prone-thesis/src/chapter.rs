@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use prone_report::figures::GaitNumbers;
+use prone_report::figures::{GaitNumbers, PublishedRange};
 use prone_report::report::{Folder, Part, Publication, ReportError, Run};
 
 use crate::published;
@@ -45,7 +45,7 @@ impl Publication for Thesis {
         &published::FIGURES
     }
 
-    fn joint_range(&self, joint: &str) -> Option<(f64, f64)> {
+    fn joint_range(&self, joint: &str) -> Option<PublishedRange> {
         published::crawl_range(joint)
     }
 

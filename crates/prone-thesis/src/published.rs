@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use prone_report::figures::GaitNumbers;
+use prone_report::figures::{GaitNumbers, PublishedRange};
 
 /// Values behind Figure 45: ∫ Σ τ² dt of one side at 1, 2, … 10 s, N²·m²·s.
 const NOMINAL_COSTS: [f64; 10] = [
@@ -82,10 +82,17 @@ const CRAWL_RANGES: [(&str, f64, f64); 7] = [
     ("LAnklePitch", -1.19, -0.2),
 ];
 
-/// The published range of a joint of the crawling robot, rad.
-pub fn crawl_range(joint: &str) -> Option<(f64, f64)> {
+/// How the ranges of the crawling robot were obtained.
+const RANGES_OBTAINED: &str = "Published: the range that the same joint swept on the real robot at 3 s \
+                               a cycle, read off the original's figure.";
+
+/// The published range of a joint of the crawling robot.
+pub fn crawl_range(joint: &str) -> Option<PublishedRange> {
     let found = CRAWL_RANGES.iter().find(|(name, ..)| *name == joint);
-    found.map(|&(_, low, high)| (low, high))
+    found.map(|&(_, low, high)| PublishedRange {
+        angles: (low, high),
+        obtained: RANGES_OBTAINED,
+    })
 }
 
 /// A crawl of the real robot under its table.

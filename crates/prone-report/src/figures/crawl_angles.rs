@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::panel::{Band, Curve, Panel};
-use super::records::{AngleRecord, AngleRow};
+use super::records::{AngleRecord, AngleRow, PublishedRange};
 use super::sheet::{KeyEntry, Sheet};
 use super::style::{BAND, CURVE_WIDTH, INK, LIGHT, Stroke};
 use super::torque::time_axis;
@@ -12,7 +12,7 @@ use super::{Figure, FigureError, Wording};
 /// robot, rad, where one is published.
 pub fn figure(
     record: &AngleRecord,
-    published: &dyn Fn(&str) -> Option<(f64, f64)>,
+    published: &dyn Fn(&str) -> Option<PublishedRange>,
 ) -> Result<Option<Figure>, FigureError> {
     let AngleRecord {
         gait,
@@ -31,7 +31,7 @@ pub fn figure(
     };
     let measured = Stroke::solid(INK, CURVE_WIDTH);
     let commanded = Stroke::solid(LIGHT, CURVE_WIDTH + 1.0);
-    let mut any_band = false;
+    let mut obtained = None;
     let panels = joints.iter().enumerate().map(|(joint, name)| {
         let over_time = |angles: fn(&AngleRow) -> &[f64]| {
             let points = rows.iter();
@@ -41,8 +41,9 @@ pub fn figure(
             Curve::new(over_time(|row| &row.command_rad), commanded),
             Curve::new(over_time(|row| &row.angle_rad), measured),
         ];
-        let band = published(name);
-        any_band |= band.is_some();
+        let range = published(name);
+        obtained = obtained.or(range.map(|range| range.obtained));
+        let band = range.map(|range| range.angles);
         let points = curves.iter().flat_map(|curve| &curve.points);
         let ends = band.iter().flat_map(|&(low, high)| [low, high]);
         let y = Axis::covering("angle, rad", points.map(|point| point.1).chain(ends));
@@ -60,12 +61,13 @@ pub fn figure(
         || "Ours: simulation, one value per 20 ms.".to_owned(),
         |from| format!("Source: {from}."),
     );
-    if any_band {
+    if let Some(obtained) = obtained {
         key.push(KeyEntry::band(
             "range on the crawling robot, published".to_owned(),
             BAND,
         ));
-        source.push_str(" The band is the published range of the joint.");
+        source.push(' ');
+        source.push_str(obtained);
     }
     let sheet = Sheet::new(2, 130.0, panels).with_key(key);
     let wording = Wording {

@@ -51,6 +51,15 @@ pub struct ConfirmedRecord {
     pub ratio: Option<f64>,
 }
 
+/// The range that a joint swept on a crawling robot, as it was published.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PublishedRange {
+    /// Smallest and largest angle, rad.
+    pub angles: (f64, f64),
+    /// How it was obtained: a sentence of a caption.
+    pub obtained: &'static str,
+}
+
 /// What the scores of a search mean.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scores {

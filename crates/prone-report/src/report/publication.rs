@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::error::ReportError;
 use super::folder::Folder;
 use super::run::Run;
-use crate::figures::GaitNumbers;
+use crate::figures::{GaitNumbers, PublishedRange};
 
 /// A published study. What it does not say of itself is left out of the report.
 pub trait Publication: Sync {
@@ -38,7 +38,7 @@ pub trait Publication: Sync {
     }
 
     /// The range that a joint swept on the crawling robot, rad, where it is published.
-    fn joint_range(&self, _joint: &str) -> Option<(f64, f64)> {
+    fn joint_range(&self, _joint: &str) -> Option<PublishedRange> {
         None
     }
 

@@ -19,7 +19,7 @@ use prone_record::record_info::{CrawlOptions, Options, RecordInfo};
 use prone_record::recorded::{CONTACTS_FILE, Command, MODEL_FILE, ROBOT_FILE, ROWS_FILE};
 use prone_record::tables::as_written;
 use prone_report::figure_list::FigureList;
-use prone_report::figures::{self, AngleRecord, AngleRow, FigureError, PNG_SCALE};
+use prone_report::figures::{self, AngleRecord, AngleRow, FigureError, PNG_SCALE, PublishedRange};
 
 /// Why a record has no files.
 #[derive(Debug, thiserror::Error)]
@@ -64,7 +64,7 @@ pub struct Recording<'a> {
 pub fn files(
     recording: &Recording<'_>,
     program: &Program,
-    published: &dyn Fn(&str) -> Option<(f64, f64)>,
+    published: &dyn Fn(&str) -> Option<PublishedRange>,
 ) -> Result<Artefacts, RecordError> {
     let Recording {
         world,

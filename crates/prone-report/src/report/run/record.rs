@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use maud::Markup;
 
 use super::{Content, Fact, Run, entries, robot_facts};
-use crate::figures::{AngleRecord, AngleRow, crawl_angles};
+use crate::figures::{AngleRecord, AngleRow, PublishedRange, crawl_angles};
 use crate::report::ReportError;
 use crate::report::folder::{Folder, Given};
 use crate::view;
@@ -43,7 +43,7 @@ impl Record {
 /// simulation has. `joint_range` is the published range of a joint.
 pub(in crate::report) fn read(
     folder: Folder,
-    joint_range: &dyn Fn(&str) -> Option<(f64, f64)>,
+    joint_range: &dyn Fn(&str) -> Option<PublishedRange>,
 ) -> Result<Run, ReportError> {
     let record = Recorded::read(&folder.path)?;
     let replay = view::record::from_record(&record);
