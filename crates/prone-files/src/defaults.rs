@@ -19,7 +19,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use crate::error::{FileError, Source};
-use crate::plain_name::is_plain;
+use crate::plain_name;
 
 /// Most names of a list.
 const MOST_NAMES: usize = 100;
@@ -106,13 +106,8 @@ impl DefaultsTable {
     /// ones where one gait is needed.
     pub(crate) fn check(&self, source: Source<'_>) -> Result<(), FileError> {
         for (_, name) in self.names() {
-            if !is_plain(name.get_ref()) {
-                let message = format!(
-                    "a gait's name is made of letters, digits, - and _, not {:?}",
-                    name.get_ref()
-                );
-                return Err(source.error(name.span(), message));
-            }
+            let checked = plain_name::check_gait(name.get_ref());
+            checked.map_err(|error| source.error(name.span(), error.to_string()))?;
         }
         for names in self.lists() {
             if names.get_ref().len() > MOST_NAMES {

@@ -6,7 +6,7 @@ use prone::gait::cycle::{Cycle, TimeScale};
 use prone::regime::Regime;
 use prone::robot::Robot;
 use prone_files::cycle_file;
-use prone_files::plain_name::is_plain;
+use prone_files::plain_name::{self, GaitNameError};
 use prone_record::experiment::{
     CycleRulesChoice, CycleSearchExperiment, Limit, NamedGait, TextError, Under, check_heights,
 };
@@ -33,11 +33,8 @@ pub enum CycleSearchError {
     #[error(transparent)]
     Limit(#[from] Limit),
     /// A name that is none of a file.
-    #[error("a gait's name is made of letters, digits, - and _, not {name:?}")]
-    Name {
-        /// What was asked for.
-        name: String,
-    },
+    #[error(transparent)]
+    Name(#[from] GaitNameError),
     /// A cycle cannot be read.
     #[error(transparent)]
     Text(#[from] TextError),
@@ -217,11 +214,6 @@ fn check(
 ) -> Result<(), CycleSearchError> {
     experiment.runs.check()?;
     match &experiment.under {
-        Under::One {
-            name: Some(name), ..
-        } if !is_plain(name) => {
-            return Err(CycleSearchError::Name { name: name.clone() });
-        }
         Under::Ceilings {
             ceilings_mm,
             margin_mm,
@@ -236,8 +228,11 @@ fn check(
             }
         }
         Under::One {
-            rules, worst_over, ..
+            rules,
+            worst_over,
+            name,
         } => {
+            name.as_deref().map_or(Ok(()), plain_name::check_gait)?;
             rules.check()?;
             let objective = experiment.objective;
             let several = matches!(objective, CycleObjective::Heat | CycleObjective::Peak);

@@ -5,6 +5,7 @@ use prone::gait::PhaseDurationError;
 use prone::mapping::MappingError;
 use prone::statics::SymmetryError;
 use prone::torque_map::ParseError;
+use prone_files::plain_name::GaitNameError;
 use prone_record::experiment::{Limit, TextError};
 use prone_sim::WorldError;
 use prone_sim::pull::PullError;
@@ -23,11 +24,8 @@ pub enum PullCostError {
     #[error(transparent)]
     Limit(#[from] Limit),
     /// A name that is none of a file.
-    #[error("a gait's name is made of letters, digits, - and _, not {name:?}")]
-    Name {
-        /// What was asked for.
-        name: String,
-    },
+    #[error(transparent)]
+    Name(#[from] GaitNameError),
     /// A gait cannot be read.
     #[error(transparent)]
     Text(#[from] TextError),

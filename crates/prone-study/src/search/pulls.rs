@@ -4,7 +4,7 @@
 use prone::gait::{CheckedTrajectory, Gait, PhaseDuration};
 use prone::regime::Regime;
 use prone_files::gait_file;
-use prone_files::plain_name::is_plain;
+use prone_files::plain_name::check_gait;
 use prone_optim::Candidate;
 use prone_record::curves_info::CurvesInfo;
 use prone_record::experiment::{Ends, GaitForm, Limit, PullSearchExperiment};
@@ -57,9 +57,7 @@ impl PullRun {
             Limit::check("a time budget", " s", seconds, bounds)?;
         }
         let name = experiment.name.clone();
-        if !is_plain(&name) {
-            return Err(PullCostError::Name { name });
-        }
+        check_gait(&name)?;
         let world = World::new(robot, Regime::TORQUE_STUDY)?;
         let terms = PullTerms::new(&experiment.terms, &world)?;
         let (form, ends) = (experiment.form, experiment.ends);
