@@ -63,7 +63,8 @@ pub struct SearchHead {
     /// given more.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub budget: Option<u64>,
-    /// Hashes of the gaits that are searched about, by their names.
+    /// Hashes of the gaits that are searched about, by their names; where several texts have the same
+    /// name, their hashes stand one behind the other.
     #[serde(default)]
     pub base_sha256: BTreeMap<String, String>,
 }
@@ -256,8 +257,14 @@ impl SearchHead {
 
     /// Adds a gait that is searched about, with the hash of its text.
     pub fn add_base(&mut self, name: &str, text: &str) {
-        self.base_sha256
-            .insert(name.to_owned(), text_file::sha256(&[text]));
+        let hash = text_file::sha256(&[text]);
+        let hashes = self.base_sha256.entry(name.to_owned()).or_default();
+        if hashes.is_empty() {
+            *hashes = hash;
+        } else if !hashes.contains(&hash) {
+            hashes.push(' ');
+            hashes.push_str(&hash);
+        }
     }
 
     /// A search that has not begun.
@@ -288,6 +295,21 @@ mod tests {
 
     fn robot() -> Value {
         json!({ "name": "NAO", "family": "nao", "version": "v4", "folder": "robots", "sha256": "x" })
+    }
+
+    /// A search is not resumed after one of two gaits of the same name was edited.
+    #[test]
+    fn the_texts_of_one_name_are_all_hashed() {
+        let hashed = |texts: &[&str]| {
+            let mut head: SearchHead = serde_json::from_value(head("optimize", "cma-es")).unwrap();
+            for text in texts {
+                head.add_base("flat", text);
+            }
+            head.base_sha256
+        };
+        assert_ne!(hashed(&["first", "second"]), hashed(&["edited", "second"]));
+        assert_ne!(hashed(&["first", "second"]), hashed(&["first", "edited"]));
+        assert_eq!(hashed(&["first", "first"]), hashed(&["first"]));
     }
 
     /// What the release before wrote is read, and written under the same keys.
