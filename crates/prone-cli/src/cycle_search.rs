@@ -129,7 +129,7 @@ fn text(files: &RobotFiles, name: &str) -> Result<GaitText, Failure> {
     Ok(GaitText::new(&source.file, &source.text))
 }
 
-/// What says how pulls are costed says nothing of cycles.
+/// Options that say how pulls are costed are refused: the cost of a cycle has no use for them.
 fn refuse_options_of_pulls(args: &OptimizeArgs) -> Result<(), Failure> {
     let terms = &args.terms;
     let given = [
@@ -157,12 +157,6 @@ fn refuse_options_of_pulls(args: &OptimizeArgs) -> Result<(), Failure> {
 
 /// What was found, under each ceiling.
 pub(crate) fn print(frontier: &Frontier, out: &mut dyn Write) -> std::io::Result<()> {
-    if frontier.found.is_empty() {
-        writeln!(
-            out,
-            "no cycle was found that can be crawled: --budget is too small"
-        )?;
-    }
     writeln!(
         out,
         "{:>10}{:>6}{:>14}{:>9}{:>10}{:>12}{:>12}{:>11}  holds",

@@ -74,7 +74,7 @@ impl Done {
         }
     }
 
-    /// The same as tables, and where it is.
+    /// What came out as tables, and the place of the files.
     fn print(&self, plan: &Plan, out: &mut dyn Write) -> std::io::Result<()> {
         let place = |out: &mut dyn Write, noun: &str, file: Option<&str>| {
             plan.out.as_ref().map_or(Ok(()), |folder| {
