@@ -16,7 +16,7 @@ use clap::{Parser, Subcommand};
 
 use prone::gait::PhaseDuration;
 
-pub(crate) use crawl::{CrawlCommand, CrawlRunArgs, ServoName, TimeStepName};
+pub(crate) use crawl::{CrawlCommand, CrawlRunArgs, ServoName};
 pub(crate) use export::{ExportArgs, Format, ViewName};
 pub(crate) use named::{GaitArg, RobotArg, RobotArgument};
 pub(crate) use report::ReportArgs;

@@ -76,6 +76,7 @@ pub(crate) fn experiment(args: &OptimizeArgs) -> Result<CycleSearchExperiment, F
                 demanded_shoulder_nm: args.demanded_shoulder_nm,
                 body_share_percent: args.body_share_percent,
                 most_heat: args.most_heat,
+                most_head_n: args.most_head_n,
             },
             worst_over: worst_over.map(|name| named(&files, name)).transpose()?,
             name: args.name.clone(),

@@ -87,6 +87,7 @@ fn refuse_cycle_options(args: &OptimizeArgs) -> Result<(), Failure> {
         ("--body-share-percent", args.body_share_percent.is_some()),
         ("--worst-over", args.worst_over.is_some()),
         ("--most-heat", args.most_heat.is_some()),
+        ("--most-head-n", args.most_head_n.is_some()),
     ];
     Failure::if_given(&given, "goes with --source cycle only")
 }

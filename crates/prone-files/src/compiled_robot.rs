@@ -4,7 +4,7 @@
 //! ```json
 //! {
 //!   "format": "prone-compiled-robot",
-//!   "format_version": 1,
+//!   "format_version": 2,
 //!   "family": "nao",
 //!   "version": "v4",
 //!   "sources_sha256": "…",
@@ -51,7 +51,7 @@ pub const FILE_NAME: &str = "robot.compiled.json";
 /// What the key `format` says.
 const FORMAT: &str = "prone-compiled-robot";
 /// The version of the format that is written and read.
-const FORMAT_VERSION: u64 = 1;
+const FORMAT_VERSION: u64 = 2;
 /// Digits of a SHA-256 hash.
 const HASH_DIGITS: usize = 64;
 

@@ -76,6 +76,7 @@ pub fn parse(file: &str, text: &str) -> Result<Cycle, FileError> {
         recovery.push(source.waypoint(waypoint)?);
     }
     Ok(Cycle {
+        rest: 0.0,
         pull: Gait {
             name: table.name.into_inner(),
             description: table.description,

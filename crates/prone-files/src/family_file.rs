@@ -3,6 +3,7 @@
 //! ```toml
 //! name = "nao"       # as the versions' robot.toml name it
 //! default = "v4"     # the folder of the version that the family's own folder stands for
+//! recorded = "scene" # the folder of the version whose recordings are published, optional
 //!
 //! [defaults]         # which gaits the program uses, see [`crate::defaults`]
 //! ```
@@ -23,6 +24,8 @@ pub(crate) struct FamilyFile {
     pub(crate) name: Spanned<String>,
     /// Folder of the version that the family stands for.
     pub(crate) default: Spanned<String>,
+    /// Folder of the version whose torques were recorded and published, where there is one.
+    pub(crate) recorded: Option<Spanned<String>>,
     /// Which gaits the program uses.
     #[serde(default)]
     pub(crate) defaults: DefaultsTable,
@@ -33,7 +36,9 @@ impl FamilyFile {
     pub(crate) fn parse(file: &str, text: &str) -> Result<Self, FileError> {
         let source = Source { file, text };
         let family: Self = source.parse()?;
-        for (name, whose) in [(&family.name, "a family"), (&family.default, "a version")] {
+        let names = [(&family.name, "a family"), (&family.default, "a version")];
+        let recorded = family.recorded.iter().map(|name| (name, "a version"));
+        for (name, whose) in names.into_iter().chain(recorded) {
             if !is_plain(name.get_ref()) {
                 let message = format!(
                     "the name of {whose} is made of letters, digits, - and _ (it names a folder), not {:?}",

@@ -144,8 +144,12 @@ pub struct ContactTable {
     pub torso: Vec<Name>,
     /// Bodies that count as leg.
     pub leg: Vec<Name>,
-    /// Bodies that are the head, whose height is recorded apart.
+    /// Bodies that count as head, whose height is recorded apart.
+    #[serde(default)]
     pub head: Vec<Name>,
+    /// Bodies that count as hand.
+    #[serde(default)]
+    pub hand: Vec<Name>,
 }
 
 /// `[motors.<type>]`
@@ -170,8 +174,11 @@ pub struct DriveTable {
     pub effort_nm: f64,
     /// Speed limit, rad/s.
     pub speed_rad_s: f64,
-    /// Velocity gain of the simulated servo, N·m·s/rad.
-    pub servo_gain_nms: f64,
+    /// Torque that the servo asks for per position error, N·m/rad.
+    pub servo_stiffness_nm_rad: f64,
+    /// Whether one motor turns all joints of this drive together; the model ties them by equalities.
+    #[serde(default)]
+    pub one_motor: bool,
     /// Motor type, a key of `[motors]`.
     pub motor: Option<Name>,
     /// Gear ratio; needed where a motor is named.
@@ -211,12 +218,8 @@ pub struct ImuTable {
 pub struct ControlTable {
     /// Time between two commands, ms.
     pub command_step_ms: Number,
-    /// Speed that a servo commands per position error, 1/s.
-    pub servo_rate_per_s: Number,
-    /// Largest speed that a servo commands, rad/s.
-    pub servo_speed_rad_s: Number,
-    /// Velocity gain of every joint's servo where servos are taken to be stiff, N·m·s/rad.
-    pub stiff_servo_gain_nms: Number,
+    /// Share of a motor's torque that its gear passes on.
+    pub gear_efficiency: Number,
     /// Slope above which a cycle for going uphill is taken, degrees.
     pub uphill_deg: Number,
     /// How the robot is kept on its line.

@@ -42,21 +42,38 @@ pub struct RobotSource {
     pub compiled: &'static str,
 }
 
+/// A version of the NAO.
+macro_rules! version_of_nao {
+    ($version:literal) => {
+        RobotSource {
+            version: $version,
+            folder: concat!("robots/nao/", $version),
+            toml: include_str!(concat!("../../../robots/nao/", $version, "/robot.toml")),
+            mjcf: include_str!(concat!("../../../robots/nao/", $version, "/robot.xml")),
+            compiled: include_str!(concat!(
+                "../../../robots/nao/",
+                $version,
+                "/robot.compiled.json"
+            )),
+        }
+    };
+}
+
 /// The NAO H25 V4.
-pub const NAO: RobotSource = RobotSource {
-    version: "v4",
-    folder: "robots/nao/v4",
-    toml: include_str!("../../../robots/nao/v4/robot.toml"),
-    mjcf: include_str!("../../../robots/nao/v4/robot.xml"),
-    compiled: include_str!("../../../robots/nao/v4/robot.compiled.json"),
-};
+pub const NAO: RobotSource = version_of_nao!("v4");
+
+/// The NAO H25 V5.
+pub const NAO_V5: RobotSource = version_of_nao!("v5");
+
+/// The NAO of the scene in which the published torques were recorded.
+pub const NAO_OF_THE_SCENE: RobotSource = version_of_nao!("scene");
 
 /// The families that ship; what the first says goes for robots that say nothing.
 static FAMILIES: [FamilySource; 1] = [FamilySource {
     name: "nao",
     folder: "robots/nao",
     toml: include_str!("../../../robots/nao/family.toml"),
-    versions: &[NAO],
+    versions: &[NAO, NAO_V5, NAO_OF_THE_SCENE],
     pulls: &NAO_PULLS,
     cycles: &NAO_CYCLES,
 }];

@@ -79,6 +79,7 @@ mod tests {
             command_rad: [0.0; 7],
             angle_rad: [0.0; 7],
             contact_n,
+            squeeze_n: 0.0,
             top_mm: 0.0,
             head_top_mm: 0.0,
         });

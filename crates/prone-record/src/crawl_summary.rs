@@ -50,28 +50,34 @@ pub struct CrawlSummary {
     /// Advance per cycle over that stride: above 1 where recoveries advance too; nothing where the
     /// plan does not lead forward.
     pub stride_efficiency: Option<f64>,
-    /// Share of the ground's force on trunk and legs during pulls, mean of the cycles.
+    /// Share of the ground's force on trunk, head and legs during pulls, mean of the cycles.
     pub pull_body_share: f64,
     /// The same during recoveries.
     pub recovery_body_share: f64,
-    /// Largest actuator torque over the manufacturer's effort limit.
+    /// What the ground carried.
+    pub ground: GroundSummary,
+    /// Whether the motors of a robot could do it.
+    pub verdict: VerdictSummary,
+    /// Largest applied torque over the manufacturer's effort limit.
     pub peak_torque_over_rated: f64,
     /// Joint in which `peak_torque_over_rated` was reached.
     pub peak_torque_joint: String,
-    /// Largest torque that a servo of a shoulder's pitch demanded, before its limit, N·m.
+    /// Largest torque that the position error of a shoulder's pitch asks for before any limit, N·m:
+    /// stiffness times lag.
     pub demanded_peak_shoulder_nm: f64,
-    /// Share of the time in which the servo of a shoulder's pitch demanded more than the effort
-    /// limit, of the side where it is larger.
+    /// Share of the time in which the motor of a shoulder's pitch is at its current limit, of the
+    /// side where it is larger.
     pub saturated_shoulder_share: f64,
-    /// Share of the time in which a servo demanded more than the effort limit, of the joint where
-    /// it is largest.
+    /// Share of the time in which a motor is at its current limit, of the one where it is largest.
     pub saturated_share: f64,
-    /// Which joint that is, if any servo ever demanded so much.
+    /// Joint of that motor, if any was ever at its limit.
     pub saturated_joint: Option<String>,
-    /// ∫ Σ (τ / nominal torque)² dt, s.
-    pub heat_s: f64,
+    /// ∫ Σ (τ / nominal torque)² dt, s; nothing where the figures of a motor are not known.
+    pub heat_s: Option<f64>,
     /// Heat per metre of path, s/m; `None` if the crawl made no progress.
     pub heat_per_metre_s: Option<f64>,
+    /// Heat per second: what the motors feel.
+    pub heat_per_second: Option<f64>,
     /// Positive mechanical work of the motors, J.
     pub work_j: f64,
     /// Positive work of the motors over weight times path; `None` if the crawl made no progress.
@@ -82,7 +88,7 @@ pub struct CrawlSummary {
     /// and what is braked is not given back.
     pub electrical_cost_of_transport: Option<f64>,
     /// What each motor did.
-    pub joints: Vec<JointSummary>,
+    pub joints: Vec<MotorSummary>,
     /// Joints stopped at their limits in the plan without a turn.
     pub clamps: Vec<SheetClamp>,
     /// Joints whose calibration error led commands past their limits, where they were stopped.
@@ -160,22 +166,86 @@ pub struct CycleSummary {
     pub y_mm: f64,
     /// Highest points.
     pub top_mm: TopsMm,
-    /// ∫ Σ (τ / nominal torque)² dt, s.
-    pub heat_s: f64,
+    /// ∫ Σ (τ / nominal torque)² dt, s; nothing where the figures of a motor are not known.
+    pub heat_s: Option<f64>,
     /// Positive mechanical work, J.
     pub work_j: f64,
-    /// Share of the ground's force on trunk and legs during the pull.
+    /// Share of the ground's force on trunk, head and legs during the pull.
     pub body_share: f64,
     /// The same during the recovery.
     pub recovery_body_share: f64,
+    /// What the ground carried.
+    pub ground: GroundSummary,
+    /// Whether the motors of a robot could go on doing it.
+    pub verdict: VerdictSummary,
+    /// What each motor did.
+    pub joints: Vec<MotorSummary>,
 }
 
-/// One joint over a whole crawl. Torque is **actuator torque**, after the effort limit, unless it
-/// says demanded.
+/// What the ground carried over a time, by groups of bodies.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct GroundSummary {
+    /// Feet.
+    pub toe: GroupLoad,
+    /// Arms to the forearms.
+    pub elbow: GroupLoad,
+    /// Trunk and pelvis.
+    pub torso: GroupLoad,
+    /// Thighs and shins.
+    pub leg: GroupLoad,
+    /// Neck and head.
+    pub head: GroupLoad,
+    /// Hands.
+    pub hand: GroupLoad,
+}
+
+/// What the ground carried of a group of bodies, both sides together.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct GroupLoad {
+    /// Mean normal force, N.
+    pub mean_n: f64,
+    /// Largest mean over 20 ms, N.
+    pub peak_n: f64,
+    /// Share of the time in which that mean was 1 N or more.
+    pub share_of_time: f64,
+}
+
+/// Whether the motors of a robot could do it, and for how long ([`prone::motor::Verdict`]).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct JointSummary {
-    /// The manufacturer's name.
+pub struct VerdictSummary {
+    /// `continuous`, `limited`, `not on a robot`; nothing where the figures of a motor are not known.
+    pub duty: Option<String>,
+    /// What is beyond what can go on for ever, the worst motor of each measure.
+    pub reasons: Vec<ReasonSummary>,
+    /// Why there is no verdict, where there is none.
+    pub unknown: Option<String>,
+    /// Efficiency of the gears that it supposes.
+    pub gear_efficiency: f64,
+}
+
+/// A measure that is beyond what can go on for ever.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ReasonSummary {
+    /// What it is, in words.
+    pub measure: String,
+    /// Joint of the motor; nothing where it is no motor's.
+    pub joint: Option<String>,
+    /// Its value.
+    pub value: f64,
+    /// Up to which value it can go on for ever.
+    pub continuous: f64,
+    /// Up to which value it can go on for minutes.
+    pub limited: f64,
+}
+
+/// One motor over a time. Torque τ is **applied torque**; of a motor that turns several joints, their
+/// sum. What is over nominal torque or no-load speed is nothing where these are not known.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct MotorSummary {
+    /// The joint that the motor is named after.
     pub joint: String,
+    /// All joints that it turns.
+    pub joints: Vec<String>,
     /// The manufacturer's effort limit, N·m.
     pub effort_limit_nm: f64,
     /// Continuous torque of the motor at the joint, before gear losses, N·m, where it is known.
@@ -184,16 +254,27 @@ pub struct JointSummary {
     pub peak_nm: f64,
     /// √(∫ τ² dt / time), N·m.
     pub rms_nm: f64,
-    /// Largest |τ| that the servo demanded, N·m.
+    /// The same over what the gear passes on of the nominal torque.
+    pub rms_over_nominal: Option<f64>,
+    /// Largest torque that the position error asks for before any limit, N·m.
     pub demanded_peak_nm: f64,
-    /// Share of the time in which the servo demanded more than the effort limit.
+    /// Largest position error, degrees.
+    pub largest_lag_deg: f64,
+    /// Share of the time in which the supply's voltage is less than what the controller asks for.
+    pub voltage_clipped_share: f64,
+    /// Share of the time at the current limit.
     pub saturated_share: f64,
-    /// ∫ (τ / nominal torque)² dt, s; nothing where the motor is not known.
+    /// Largest commanded speed over the no-load speed.
+    pub planned_speed_over_no_load: Option<f64>,
+    /// ∫ (τ / nominal torque)² dt, s.
     pub heat_s: Option<f64>,
-    /// ∫ max(τω, 0) dt, J.
+    /// The same per second.
+    pub heat_per_second: Option<f64>,
+    /// The same per metre of path, s/m; nothing without progress.
+    pub heat_per_metre_s: Option<f64>,
+    /// ∫ max(power, 0) dt, J.
     pub work_j: f64,
-    /// What the winding lost, J ([`prone::robot::Motor::winding_loss`]): an estimate; nothing where
-    /// the motor's speed without load is not known.
+    /// What the winding lost, J ([`prone::robot::Motor::winding_loss`]): an estimate.
     pub winding_loss_j: Option<f64>,
 }
 

@@ -1,20 +1,24 @@
 //! The tables of a record folder as CSV.
 
 use prone::frames::{Ground, Root, Transform};
-use prone::robot::{JointAngles, Robot, Tops};
+use prone::motor::Effort;
+use prone::robot::{ContactGroup, JointAngles, Robot, Tops};
 use prone::scene::{ContactForce, Obstacle, obstacle_name};
 use prone::steering::Bearing;
 
-use crate::crawl_summary::{CrawlSummary, CycleSummary};
+use crate::crawl_summary::{CrawlSummary, CycleSummary, MotorSummary};
 use crate::record_columns::{
-    ANGLE_END, COMMAND_END, CONTACTS, FORCE, LATERAL, PLACE, STAGES, TORQUE_END, TURN, YAW,
-    grounds, labels, tops,
+    ANGLE_END, COMMAND_END, CONTACTS, FORCE, HEAT_END, LATERAL, PLACE, STAGES, TORQUE_END, TURN,
+    WORK_END, YAW, grounds, labels, tops,
 };
 use crate::record_info::Part;
-use crate::tables::{file, number};
+use crate::tables::{file, maybe, number};
 
 /// A figure of a cycle: its column, and where it stands.
 type Figure = (&'static str, fn(&CycleSummary) -> f64);
+
+/// A figure of a motor that may not be known.
+type MotorFigure = (&'static str, fn(&MotorSummary) -> Option<f64>);
 
 /// Figures of a cycle before its highest points, with three decimals.
 const FIRST: [Figure; 8] = [
@@ -29,12 +33,32 @@ const FIRST: [Figure; 8] = [
 ];
 
 /// Figures of a cycle after its highest points, with five decimals.
-const LAST: [Figure; 5] = [
-    ("heat_s", |cycle| cycle.heat_s),
+const LAST: [Figure; 7] = [
+    ("heat_s", |cycle| cycle.heat_s.unwrap_or(f64::NAN)),
     ("work_j", |cycle| cycle.work_j),
     ("body_share", |cycle| cycle.body_share),
     ("pull_advance_mm", |cycle| cycle.pull_advance_mm),
     ("recovery_body_share", |cycle| cycle.recovery_body_share),
+    ("head_peak_n", |cycle| cycle.ground.head.peak_n),
+    ("hand_peak_n", |cycle| cycle.ground.hand.peak_n),
+];
+
+/// Figures of a motor over a cycle.
+const MOTOR: [MotorFigure; 12] = [
+    ("heat_s", |it| it.heat_s),
+    ("heat_per_second", |it| it.heat_per_second),
+    ("heat_per_metre_s", |it| it.heat_per_metre_s),
+    ("rms_nm", |it| Some(it.rms_nm)),
+    ("rms_over_nominal", |it| it.rms_over_nominal),
+    ("peak_nm", |it| Some(it.peak_nm)),
+    ("voltage_clipped_share", |it| Some(it.voltage_clipped_share)),
+    ("saturated_share", |it| Some(it.saturated_share)),
+    ("planned_speed_over_no_load", |it| {
+        it.planned_speed_over_no_load
+    }),
+    ("largest_lag_deg", |it| Some(it.largest_lag_deg)),
+    ("work_j", |it| Some(it.work_j)),
+    ("winding_loss_j", |it| it.winding_loss_j),
 ];
 
 /// `cycles.csv`.
@@ -47,13 +71,32 @@ pub fn cycles(summary: &CrawlSummary) -> Result<Vec<u8>, csv::Error> {
         let mut cells = vec![cycle.cycle.to_string()];
         cells.extend(FIRST.map(|(_, figure)| number(figure(cycle), 3)));
         cells.extend(cycle.top_mm.to_array().map(|top| number(top, 3)));
-        cells.extend(LAST.map(|(_, figure)| number(figure(cycle), 5)));
+        cells.extend(LAST.map(|(_, figure)| known(figure(cycle), 5)));
         cells
     });
     file(header, rows)
 }
 
-/// One instant of a crawl or a pull.
+/// A number with fixed decimals; an empty cell of what is not known.
+fn known(value: f64, decimals: usize) -> String {
+    maybe((!value.is_nan()).then_some(value), decimals)
+}
+
+/// `motors.csv`: what each motor did in each cycle.
+pub fn motors(summary: &CrawlSummary) -> Result<Vec<u8>, csv::Error> {
+    let mut header = vec!["cycle".to_owned(), "joint".to_owned()];
+    header.extend(MOTOR.map(|(name, _)| name.to_owned()));
+    let rows = summary.per_cycle.iter().flat_map(|cycle| {
+        cycle.joints.iter().map(|motor| {
+            let mut cells = vec![cycle.cycle.to_string(), motor.joint.clone()];
+            cells.extend(MOTOR.map(|(_, figure)| maybe(figure(motor), 6)));
+            cells
+        })
+    });
+    file(header, rows)
+}
+
+/// A row of a crawl or a pull.
 pub struct Instant<'a> {
     /// Since the first pull began, s.
     pub time: f64,
@@ -65,11 +108,13 @@ pub struct Instant<'a> {
     pub command: &'a JointAngles,
     /// Measured joint angles, rad.
     pub angles: &'a JointAngles,
-    /// **Actuator torque** of each joint about its axis, mean over the row, N·m.
-    pub actuator_torque: &'a [f64],
-    /// Normal force of the ground by [`prone::robot::ContactGroup::ALL`], mean over the row, N.
-    pub contact: [f64; 4],
-    /// What the world does to the robot now, contact by contact.
+    /// **Applied torque** of each joint's motor about the joint's axis, mean over the row, N·m.
+    pub applied_torque: &'a [f64],
+    /// What the motors did over the row, where that is known.
+    pub effort: Option<&'a Effort>,
+    /// Normal force of the ground by [`ContactGroup::ALL`], mean over the row, N.
+    pub contact: [f64; ContactGroup::COUNT],
+    /// What the world does to each body that it touches, mean over the row.
     pub forces: &'a [ContactForce],
     /// Pose of the root.
     pub ground_from_root: Transform<Ground, Root>,
@@ -89,6 +134,14 @@ pub fn rows(
     for joint in &robot.joints {
         header
             .extend([COMMAND_END, ANGLE_END, TORQUE_END].map(|end| format!("{}{end}", joint.name)));
+    }
+    for end in [HEAT_END, WORK_END] {
+        header.extend(
+            robot
+                .joints
+                .iter()
+                .map(|joint| format!("{}{end}", joint.name)),
+        );
     }
     header.extend(grounds());
     header.extend(tops());
@@ -110,15 +163,36 @@ pub fn rows(
         cells.push(number(Bearing::of_prone(&root).yaw.to_degrees(), 4));
         cells.push(number((cos * dy - sin * dx) * 1e3, 3));
         let angles = row.command.pairs(row.angles);
-        for ((command, angle), torque) in angles.zip(row.actuator_torque) {
+        for ((command, angle), torque) in angles.zip(row.applied_torque) {
             cells.extend([number(command, 6), number(angle, 6), number(*torque, 5)]);
         }
+        let (heat, work) = heat_and_work(robot, row.effort);
+        cells.extend(heat.into_iter().map(|it| maybe(it, 8)));
+        cells.extend(work.into_iter().map(|it| maybe(it, 8)));
         cells.extend(row.contact.map(|force| number(force, 4)));
         cells.extend(row.tops.0.map(|top| number(top * 1e3, 3)));
         cells.push(row.forces.len().to_string());
         cells
     });
     file(header, rows)
+}
+
+/// Heat, s, and positive work, J, by joint; joints that share a motor have even shares. Nothing of
+/// what is not known.
+fn heat_and_work(robot: &Robot, effort: Option<&Effort>) -> (Vec<Option<f64>>, Vec<Option<f64>>) {
+    let mut heat = vec![None; robot.joints.len()];
+    let mut work = heat.clone();
+    let Some(effort) = effort else {
+        return (heat, work);
+    };
+    for (drive, motor) in robot.drives().iter().zip(&effort.motors) {
+        let used = motor.motor_use(robot, drive, effort.seconds, 1.0);
+        for joint in &drive.joints {
+            heat[joint.0] = used.as_ref().ok().map(|it| it.heat / drive.sharers());
+            work[joint.0] = Some(motor.work / drive.sharers());
+        }
+    }
+    (heat, work)
 }
 
 /// `contacts.csv`.

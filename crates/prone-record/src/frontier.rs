@@ -20,7 +20,8 @@ pub enum CycleObjective {
     Advance,
     /// Minus the speed, m/s.
     Speed,
-    /// Largest torque that a shoulder's servo demands, with the robot's own servo gains, N·m.
+    /// Largest torque that the position error of a shoulder asks for before any limit, with the
+    /// robot's own stiffness, N·m.
     Peak,
 }
 
@@ -141,6 +142,8 @@ pub struct ConfirmedSetting {
     pub peak_joint: Option<String>,
     /// Largest torque that a shoulder's servo demands, before the effort limit, N·m.
     pub demanded_shoulder_nm: Option<f64>,
+    /// Largest mean force on the head over 20 ms, N.
+    pub head_n: Option<f64>,
     /// Advance over the first setting's.
     pub kept: Option<f64>,
     /// Why it cannot be crawled.
@@ -176,6 +179,7 @@ pub fn csv<'f>(frontier: &'f Frontier) -> Result<Vec<u8>, csv::Error> {
             ("demanded_shoulder_nm", &|(_, it)| {
                 maybe(it.demanded_shoulder_nm, 4)
             }),
+            ("head_n", &|(_, it)| maybe(it.head_n, 3)),
             ("kept", &|(_, it)| maybe(it.kept, 4)),
             ("refused", &|(_, it)| it.refused.clone().unwrap_or_default()),
         ],

@@ -36,10 +36,42 @@ pub struct Simulated {
     pub cone: String,
     /// Acceleration of gravity in the ground frame, m/s²; a slope tilts it.
     pub gravity_m_s2: [f64; 3],
-    /// Velocity gain of the servo of each joint, N·m·s/rad.
-    pub servo_gains_nms_rad: BTreeMap<String, f64>,
-    /// Torque limit of the servo of each joint, N·m.
-    pub effort_limits_nm: BTreeMap<String, f64>,
+    /// What drove the joints, by the joint that each motor is named after.
+    pub servos: BTreeMap<String, ServoInfo>,
+    /// Damping of each joint, the back-EMF of its motor included, N·m·s/rad.
+    pub joint_damping_nms_rad: BTreeMap<String, f64>,
+}
+
+/// What drove one or more joints.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "law", rename_all = "kebab-case")]
+pub enum ServoInfo {
+    /// A direct-current motor under a position controller ([`prone::motor`]).
+    DcMotor {
+        /// The joints that it turns.
+        joints: Vec<String>,
+        /// Torque that the controller asks for per position error, N·m/rad.
+        stiffness_nm_rad: f64,
+        /// Largest torque that the supply gives at rest, behind the gear, N·m.
+        supply_torque_nm: f64,
+        /// Largest torque that the current limit allows, N·m.
+        current_torque_nm: f64,
+        /// What the torque loses per speed, N·m·s/rad.
+        back_emf_nms_rad: f64,
+        /// Whether the motor's figures were assumed from the joint's limits.
+        assumed: bool,
+    },
+    /// The velocity servo of the published recordings.
+    Velocity {
+        /// Velocity gain, N·m·s/rad.
+        gain_nms_rad: f64,
+        /// Commanded speed per position error, 1/s.
+        rate_per_s: f64,
+        /// Largest commanded speed, rad/s.
+        speed_rad_s: f64,
+        /// Torque limit, N·m.
+        limit_nm: f64,
+    },
 }
 
 /// How contacts, stops and motors were modelled.
@@ -55,12 +87,8 @@ pub struct RegimeInfo {
     pub effort_limit: String,
     /// Joint stops, in words.
     pub stops: String,
-    /// Velocity gains of the servos, in words.
-    pub servo_gain: String,
-    /// Rate of the servo law, 1/s.
-    pub servo_rate_per_s: f64,
-    /// Largest speed that a servo commands, rad/s.
-    pub servo_speed_rad_s: f64,
+    /// What drives the joints, in words.
+    pub servo: String,
     /// Length of an engine step, s.
     pub time_step_s: f64,
     /// Time between two commands, s.

@@ -1,6 +1,6 @@
 //! What an experiment leaves behind: the numbers that tables, figures and report read.
 //!
-//! Torque here is **joint torque in the sign of the recordings**: minus the actuator torque about the joint's axis, of the
+//! Torque here is **joint torque in the sign of the recordings**: minus the torque that the motor applies about the joint's axis, of the
 //! right side, averaged over one control step. That is the sign and the averaging of the
 //! published recordings.
 
@@ -36,8 +36,11 @@ pub struct PullRow {
     pub command_rad: [f64; 7],
     /// Measured angles at the end of the step, rad, same order.
     pub angle_rad: [f64; 7],
-    /// Normal contact force on toes, elbows, torso and legs, N, both sides, averaged.
+    /// Normal contact force by [`prone::robot::ContactGroup::OF_THE_STUDY`], N, both sides, averaged.
     pub contact_n: [f64; 4],
+    /// Internal squeeze of the chain, N a side: the horizontal force with which the ground pushes toes
+    /// and elbows towards one another, averaged.
+    pub squeeze_n: f64,
     /// Highest point of any shape at the end of the step, mm above the floor.
     pub top_mm: f64,
     /// Highest point of the head, mm above the floor.

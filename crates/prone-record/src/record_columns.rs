@@ -28,7 +28,7 @@ pub(crate) const TURN: [&str; 4] = ["qw", "qx", "qy", "qz"];
 pub(crate) const YAW: &str = "yaw_deg";
 /// How far the root is to the left of the line of the start.
 pub(crate) const LATERAL: &str = "lateral_mm";
-/// How many contacts an instant has, by which a reader knows whether `contacts.csv` is whole.
+/// How many contacts a row has, by which a reader knows whether `contacts.csv` is whole.
 pub(crate) const CONTACTS: &str = "contacts";
 /// Force of a contact on the robot.
 pub(crate) const FORCE: [&str; 3] = ["fx_n", "fy_n", "fz_n"];
@@ -39,6 +39,10 @@ pub(crate) const COMMAND_END: &str = "_cmd_rad";
 pub(crate) const ANGLE_END: &str = "_rad";
 /// End of the column of a joint's torque.
 pub(crate) const TORQUE_END: &str = "_nm";
+/// End of the column of the heat of a joint's motor.
+pub(crate) const HEAT_END: &str = "_heat_s";
+/// End of the column of the positive work of a joint's motor.
+pub(crate) const WORK_END: &str = "_work_j";
 
 /// Names of the stages of a crawl.
 pub(crate) const STAGES: [&str; 2] = ["pull", "recovery"];
@@ -59,7 +63,7 @@ pub(crate) const fn labels(table: Part) -> &'static [&'static str] {
 }
 
 /// Normal force of the ground on each group of bodies.
-pub(crate) fn grounds() -> [String; 4] {
+pub(crate) fn grounds() -> [String; ContactGroup::COUNT] {
     ContactGroup::ALL.map(|group| format!("{}_n", group.name()))
 }
 
@@ -75,9 +79,12 @@ pub(crate) fn meaning(table: Part, column: &str) -> Option<Meaning> {
     // A simulation averages what a robot samples.
     let mean: &[ChannelKind] = &[ChannelKind::Mean, ChannelKind::Instant];
     let (unit, is) = match table {
-        _ if PLACE.contains(&column) => ("mm", instant),
-        Part::Contacts if FORCE.contains(&column) => ("N", instant),
+        Part::Contacts if PLACE.contains(&column) => ("mm", mean),
+        Part::Contacts if FORCE.contains(&column) => ("N", mean),
+        Part::Rows if PLACE.contains(&column) => ("mm", instant),
         Part::Rows if TURN.contains(&column) || column == CONTACTS => ("1", instant),
+        Part::Rows if column.ends_with(HEAT_END) => ("s", &[ChannelKind::Sum][..]),
+        Part::Rows if column.ends_with(WORK_END) => ("J", &[ChannelKind::Sum][..]),
         Part::Rows if column == YAW => ("°", instant),
         Part::Rows if column == LATERAL || is_among(&tops()) => ("mm", instant),
         Part::Rows if is_among(&grounds()) => ("N", mean),
@@ -96,7 +103,7 @@ pub fn channels(robot: &Robot) -> Vec<Channel> {
         let joints = robot.joints.iter();
         joints.map(|joint| format!("{}{end}", joint.name)).collect()
     };
-    let groups: [(Part, Vec<String>); 12] = [
+    let groups: [(Part, Vec<String>); 14] = [
         (Part::Rows, named(&PLACE)),
         (Part::Rows, named(&TURN)),
         (Part::Rows, named(&[YAW])),
@@ -104,6 +111,8 @@ pub fn channels(robot: &Robot) -> Vec<Channel> {
         (Part::Rows, of_joints(COMMAND_END)),
         (Part::Rows, of_joints(ANGLE_END)),
         (Part::Rows, of_joints(TORQUE_END)),
+        (Part::Rows, of_joints(HEAT_END)),
+        (Part::Rows, of_joints(WORK_END)),
         (Part::Rows, grounds().to_vec()),
         (Part::Rows, tops().to_vec()),
         (Part::Rows, named(&[CONTACTS])),

@@ -9,7 +9,7 @@ use crate::origin::{Origin, RegimeInfo};
 use crate::program::RobotInfo;
 
 /// The format of records that is written and read; records before it have no number.
-pub const FORMAT: u64 = 2;
+pub const FORMAT: u64 = 3;
 
 /// The table of instants.
 pub const ROWS_FILE: &str = "rows.csv";
@@ -148,6 +148,8 @@ pub struct CrawlOptions {
     pub until_past_mm: Option<f64>,
     /// What durations were multiplied by.
     pub time_scale: Option<f64>,
+    /// How long it rested after each cycle, s.
+    pub rest_s: Option<f64>,
     /// `none`, `constant`, `heading` or `heading-hold`.
     pub steering: Option<String>,
     /// The constant turn command, degrees.
@@ -257,7 +259,8 @@ pub struct Extent {
     pub format: u64,
     /// Rows of `rows.csv`.
     pub rows: usize,
-    /// Time between two rows, and of the first one, s; `None` where rows are unevenly spaced.
+    /// Time between two rows, and of the first one, s; `None` where rows are unevenly spaced. The last
+    /// row ends with the record and may be shorter.
     #[serde(deserialize_with = "Option::deserialize")]
     pub row_step_s: Option<f64>,
     /// What was recorded. A column that is not listed was not.
@@ -283,6 +286,9 @@ pub enum ChannelKind {
     /// The mean since the row before.
     #[serde(rename = "mean over the row")]
     Mean,
+    /// The sum since the row before.
+    #[serde(rename = "sum over the row")]
+    Sum,
     /// The value at the row's time.
     #[serde(rename = "instant")]
     Instant,

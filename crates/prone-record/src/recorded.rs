@@ -23,7 +23,7 @@ mod table;
 use std::path::Path;
 
 use prone::frames::{Ground, Point, Root, Transform};
-use prone::robot::JointAngles;
+use prone::robot::{ContactGroup, JointAngles};
 
 pub use cut::{Cut, Damage};
 pub use error::ReadError;
@@ -84,13 +84,13 @@ pub struct RecordedRow {
     pub command: JointAngles,
     /// What was reached.
     pub angles: JointAngles,
-    /// Torque of the motors about the joints' axes, N·m.
-    pub actuator_torque_nm: Vec<f64>,
-    /// Normal force of the ground by [`prone::robot::ContactGroup::ALL`], both sides together, N.
-    pub ground_n: [f64; 4],
+    /// Torque of the motors about the joints' axes, N·m: of a simulation applied torque.
+    pub motor_torque_nm: Vec<f64>,
+    /// Normal force of the ground by [`ContactGroup::ALL`], both sides together, N.
+    pub ground_n: [f64; ContactGroup::COUNT],
 }
 
-/// A point of contact at one instant.
+/// What a body meets, mean over a row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecordedContact {
     /// Since the first pull began, s.

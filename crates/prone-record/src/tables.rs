@@ -18,7 +18,7 @@ pub fn torques(pull: &PullRecord) -> Result<Vec<u8>, csv::Error> {
         header.extend([format!("{joint}_cmd_rad"), format!("{joint}_rad")]);
     }
     header.extend(["toe_n", "elbow_n", "torso_n", "leg_n"].map(String::from));
-    header.extend(["top_mm", "head_top_mm"].map(String::from));
+    header.extend(["top_mm", "head_top_mm", "squeeze_n"].map(String::from));
     let rows = pull.rows.iter().map(|row| {
         let mut cells = vec![number(row.time_s, 3), number(row.cycle_percent, 3)];
         cells.extend(row.torque_nm.map(|torque| number(torque, 6)));
@@ -27,6 +27,7 @@ pub fn torques(pull: &PullRecord) -> Result<Vec<u8>, csv::Error> {
             .extend(angles.flat_map(|(&command, &angle)| [command, angle].map(|it| number(it, 6))));
         cells.extend(row.contact_n.map(|force| number(force, 4)));
         cells.extend([row.top_mm, row.head_top_mm].map(|height| number(height, 3)));
+        cells.push(number(row.squeeze_n, 5));
         cells
     });
     file(header, rows)

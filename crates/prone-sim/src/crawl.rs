@@ -7,14 +7,12 @@
 //! follows something, or is followed by something, is [`crawler`], [`lie_down`] where the robot does
 //! not lie yet, and [`proceed`], which hands the robot back.
 
-mod effort;
 mod limbs;
 mod measure;
 mod touch;
 
-pub use effort::{Effort, JointEffort, MotorStep};
 pub use limbs::{LimbsError, check_limbs};
-pub use measure::{Advance, CycleRow, Row};
+pub use measure::{Advance, CycleRow, Ground, Row};
 pub use touch::Touch;
 
 use glam::DVec3;
@@ -24,6 +22,7 @@ use prone::crawl::{
     Timing, TimingError, Watch, drive,
 };
 use prone::gait::cycle::{Cycle, TimeScale};
+use prone::motor::Effort;
 use prone::port::{Command as _, JointCommand, Pace as _, PortError, Senses};
 use prone::robot::{JointAngles, Tops};
 
@@ -74,7 +73,7 @@ pub enum End {
 /// What is kept of a crawl.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Detail {
-    /// What adds up: cycles, heights, efforts.
+    /// What adds up: cycles, heights, efforts, what the ground carries.
     Sums,
     /// A row every [`ROW_STEP`] as well, and the position at each row.
     Rows,
@@ -89,6 +88,8 @@ pub struct Crawl {
     pub cycles: Vec<CycleRow>,
     /// What the motors did.
     pub effort: Effort,
+    /// What the ground carried.
+    pub ground: Ground,
     /// The highest points by part of the body.
     pub tops: Tops,
     /// What it bumped into, by part of the robot, then by obstacle.

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::engine_numbers::FREE_JOINT_SPEEDS;
 use crate::world::World;
 
 /// Options of the engine, as the compiled model holds them.
@@ -23,29 +24,14 @@ pub struct EngineOptions {
     pub impratio: f64,
     /// Acceleration of gravity in the ground frame, m/s².
     pub gravity: DVec3,
-    /// The servo of each of the robot's joints, in their order.
-    pub servos: Vec<EngineServo>,
-}
-
-/// A velocity servo of the compiled model.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct EngineServo {
-    /// Velocity gain, N·m·s/rad.
-    pub gain: f64,
-    /// Torque limit, N·m.
-    pub limit: f64,
+    /// Damping of each of the robot's joints, the back-EMF of its motor included, N·m·s/rad.
+    pub joint_damping: Vec<f64>,
 }
 
 impl World {
     /// How the compiled model is simulated.
     pub fn engine_options(&self) -> EngineOptions {
         let options = self.model.opt();
-        let gains = self.model.actuator_gainprm().iter();
-        let limits = self.model.actuator_forcerange().iter();
-        let servos = gains.zip(limits).map(|(gain, &[_, limit])| EngineServo {
-            gain: gain[0],
-            limit,
-        });
         EngineOptions {
             integrator: name(&INTEGRATORS, options.integrator),
             solver: name(&SOLVERS, options.solver),
@@ -55,7 +41,7 @@ impl World {
             time_step: options.timestep,
             impratio: options.impratio,
             gravity: DVec3::from_array(options.gravity),
-            servos: servos.collect(),
+            joint_damping: self.model.dof_damping()[FREE_JOINT_SPEEDS..].to_vec(),
         }
     }
 }
@@ -79,7 +65,7 @@ mod tests {
     use prone_files::shipped;
 
     use super::*;
-    use crate::{LoadedRobot, RobotFiles};
+    use crate::{LoadedRobot, RobotFiles, WorldServo};
 
     /// What the model says is what the regime, the robot and the scene asked for.
     #[test]
@@ -103,19 +89,16 @@ mod tests {
         // Uphill is +x, so gravity pulls towards -x.
         let down = DVec3::new(-slope.sin(), 0.0, -slope.cos()) * GRAVITY;
         assert!((options.gravity - down).length() < 1e-12);
-        let joints = &world.robot().joints;
-        assert_eq!(options.servos.len(), joints.len());
-        for (servo, joint) in options.servos.iter().zip(joints) {
-            assert!(
-                (servo.gain - joint.servo_gain).abs() < 1e-12,
-                "{}",
-                joint.name
-            );
-            assert!(
-                (servo.limit - joint.effort_limit).abs() < 1e-12,
-                "{}",
-                joint.name
-            );
+        let drives = world.drives().iter();
+        for (drive, damping) in drives.flat_map(|it| {
+            let joints = it.drive.joints.iter();
+            joints.map(move |joint| (it, options.joint_damping[joint.0]))
+        }) {
+            let WorldServo::Motor(motor) = drive.servo else {
+                panic!("the regime has motors");
+            };
+            let share = motor.back_emf / drive.drive.sharers();
+            assert!((damping - share).abs() < 1e-12, "{drive:?}");
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Crawling robots in the `MuJoCo` engine.
 //!
 //! [`LoadedRobot`] turns a robot's two files into [`prone::robot::Robot`]; a [`World`] puts it on a floor
-//! or into a scene under a named contact regime ([`prone::regime`]); a [`Simulation`] steps it with the servo law of the published
-//! study; [`pull`] runs one closed-chain phase and records it, [`crawl`] whole cycles; [`driven`]
+//! or into a scene under a named contact regime ([`prone::regime`]); a [`Simulation`] steps it with the motors or servos
+//! of that regime; [`pull`] runs one closed-chain phase and records it, [`crawl`] whole cycles; [`driven`]
 //! makes a simulation something that can be driven, through [`prone::port`]; [`camera`] takes
 //! pictures on the CPU. [`imu`] is what the robot feels of its attitude; [`self_collision`]
 //! tells how near its limbs come to one another.
@@ -25,11 +25,11 @@ pub mod settled;
 mod simulation;
 mod world;
 
-pub use engine_options::{EngineOptions, EngineServo};
+pub use engine_options::EngineOptions;
 pub use load::{LoadError, LoadedRobot, RobotFiles};
 pub use model_view::{InertiaView, ShapeView};
 pub use simulation::{Placement, Simulation, SimulationError, Snapshot, StepMeans};
-pub use world::{World, WorldError};
+pub use world::{TooStiff, World, WorldDrive, WorldError, WorldServo};
 
 /// The version of the engine that is linked, as it reports itself.
 pub fn engine_version() -> String {

@@ -11,7 +11,8 @@ use std::f64::consts::FRAC_PI_2;
 
 use prone::frames::{Ground, Root, Transform};
 use prone::gait::{CheckedTrajectory, Gait, PhaseDuration, TrajectoryError};
-use prone::robot::{BodyPart, JointAngles, Tops};
+use prone::motor::Effort;
+use prone::robot::{BodyPart, ContactGroup, JointAngles, Tops};
 
 use crate::simulation::{Placement, Simulation, SimulationError, Snapshot};
 use crate::world::World;
@@ -69,10 +70,14 @@ pub struct Row {
     pub command: JointAngles,
     /// Joint angles at the end of the step, rad.
     pub angles: JointAngles,
-    /// **Actuator torque** of each joint about its axis, mean over the step, N·m.
-    pub actuator_torque: Vec<f64>,
-    /// Normal contact force by [`prone::robot::ContactGroup::ALL`], mean over the step, N.
-    pub contact: [f64; 4],
+    /// **Applied torque** of each joint's motor about the joint's axis, mean over the step, N·m.
+    pub applied_torque: Vec<f64>,
+    /// Normal contact force by [`ContactGroup::ALL`], mean over the step, N.
+    pub contact: [f64; ContactGroup::COUNT],
+    /// What the world does to each body that it touches, mean over the step.
+    pub forces: Vec<ContactForce>,
+    /// What the motors did in the step.
+    pub effort: Effort,
     /// Highest point of any shape at the end of the step, m.
     pub top: f64,
     /// Highest point of the head at the end of the step, m.
@@ -90,8 +95,6 @@ pub struct Shown {
     pub s: f64,
     /// Highest points by part of the body.
     pub tops: Tops,
-    /// What the world does to the robot, contact by contact.
-    pub forces: Vec<ContactForce>,
 }
 
 /// Why a pull has no record.
@@ -224,17 +227,18 @@ pub fn proceed(
             time: (k + 1) as f64 * CONTROL_STEP,
             command: sample.joints.clone(),
             angles: simulation.joint_angles(),
-            actuator_torque: means.actuator_torque,
+            applied_torque: means.applied_torque,
             contact: means.contact,
+            forces: means.forces,
+            effort: means.effort,
             top: robot.top(&poses, |_| true),
-            head_top: robot.top(&poses, |shape| robot.bodies[shape.body.0].is_head),
+            head_top: robot.top(&poses, |shape| robot.bodies[shape.body.0].is_head()),
             ground_from_root: simulation.ground_from_root(),
             shown: match keep {
                 Keep::Rows => None,
                 Keep::Shown { .. } => Some(Shown {
                     s: sample.s,
                     tops: Tops::from_poses(robot, &parts, &poses),
-                    forces: simulation.contact_forces(),
                 }),
             },
         });

@@ -233,7 +233,7 @@ fn limbs(robot: &Robot) -> Vec<Option<Limb>> {
     ];
     let heads = (0..robot.bodies.len())
         .map(BodyId)
-        .filter(|body| robot.bodies[body.0].is_head);
+        .filter(|body| robot.bodies[body.0].is_head());
     let ends: Vec<(Limb, BodyId)> = starts
         .into_iter()
         .chain(heads.map(|body| (Limb::Head, body)))

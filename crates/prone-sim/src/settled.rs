@@ -78,7 +78,7 @@ pub fn settle(world: &World, placement: &Placement) -> Result<Settled, SettleErr
 }
 
 fn largest_change(before: &StepMeans, after: &StepMeans) -> f64 {
-    let pairs = before.actuator_torque.iter().zip(&after.actuator_torque);
+    let pairs = before.applied_torque.iter().zip(&after.applied_torque);
     pairs
         .map(|(before, after)| (after - before).abs())
         .fold(0.0, f64::max)
@@ -86,7 +86,7 @@ fn largest_change(before: &StepMeans, after: &StepMeans) -> f64 {
 
 /// Settled torques of one robot in one world, through one mapping, as a [`TorqueSource`].
 ///
-/// Torques have the recordings' sign, minus the actuator's, and are those of the right side, as
+/// Torques have the recordings' sign, minus the applied torque, and are those of the right side, as
 /// recorded. Each posture is a run of its own: answers depend on nothing asked before.
 #[derive(Debug)]
 pub struct SettledTorques {
@@ -123,7 +123,7 @@ impl TorqueSource for SettledTorques {
     fn torques(&self, at: GaitParameters) -> Result<JointTorques, TorqueGap> {
         let settled = self.settled(at)?;
         let joints = self.world.robot().chain.right.pitch_joints();
-        let load = joints.map(|joint| -settled.means.actuator_torque[joint.0]);
+        let load = joints.map(|joint| -settled.means.applied_torque[joint.0]);
         Ok(JointTorques::from_array(load))
     }
 }

@@ -6,13 +6,19 @@ use glam::{DQuat, DVec3};
 use mujoco_rs::prelude::*;
 
 use prone::frames::{Ground, Point, Root, Transform};
-use prone::robot::{BodyPoses, JointAngles, Robot};
+use prone::motor::{Effort, MotorStep};
+use prone::robot::{BodyPoses, ContactGroup, JointAngles, Robot};
+use prone::scene::ContactForce;
 
 use crate::engine_numbers::{FREE_JOINT, FREE_JOINT_SPEEDS, real_first, rotation};
 use crate::world::World;
 use prone::regime::CONTROL_STEP;
 
 mod contacts;
+mod motors;
+
+pub(crate) use contacts::{ContactSums, Keep};
+use motors::Motors;
 
 /// A robot moving in a world. A clone goes on to the same bits as the original.
 #[derive(Debug, Clone)]
@@ -20,9 +26,7 @@ pub struct Simulation {
     world: World,
     data: MjData<Arc<MjModel>>,
     reference: Vec<f64>,
-    /// Velocity gain of each servo, N·m·s/rad.
-    gains: Vec<f64>,
-    demanded: Vec<f64>,
+    motors: Motors,
     steps: usize,
 }
 
@@ -39,13 +43,17 @@ pub struct Placement {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Snapshot(Vec<f64>);
 
-/// Means over one control step.
+/// Means and sums over one control step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StepMeans {
-    /// **Actuator torque** of each joint about its axis, N·m.
-    pub actuator_torque: Vec<f64>,
-    /// Normal contact force by [`prone::robot::ContactGroup::ALL`], both sides together, N.
-    pub contact: [f64; 4],
+    /// **Applied torque** of each joint's motor about the joint's axis, N·m.
+    pub applied_torque: Vec<f64>,
+    /// Normal contact force by [`ContactGroup::ALL`], both sides together, N.
+    pub contact: [f64; ContactGroup::COUNT],
+    /// What the world does to each body that it touches.
+    pub forces: Vec<ContactForce>,
+    /// What the motors did in it.
+    pub effort: Effort,
 }
 
 /// Why a run cannot go on.
@@ -77,13 +85,10 @@ impl Simulation {
         let Snapshot(position) = Snapshot::new(ground_from_root, &angles);
         data.qpos_mut().copy_from_slice(&position);
         data.forward();
-        let servo = world.regime().servo;
-        let gains = robot.joints.iter().map(|joint| servo.gain(joint)).collect();
         Self {
             world: world.clone(),
             data,
-            demanded: vec![0.0; robot.joints.len()],
-            gains,
+            motors: Motors::at_rest(world),
             reference: angles.as_slice().to_vec(),
             steps: 0,
         }
@@ -114,41 +119,40 @@ impl Simulation {
     /// # Errors
     /// [`SimulationError::Diverged`].
     pub fn control_step(&mut self) -> Result<StepMeans, SimulationError> {
-        let mut means = StepMeans {
-            actuator_torque: vec![0.0; self.reference.len()],
-            contact: [0.0; 4],
-        };
+        let mut torques = vec![0.0; self.reference.len()];
+        let mut contacts = ContactSums::default();
+        let mut effort = Effort::none(self.robot());
+        let step = self.time_step();
         let steps = self.world.regime().steps_in(CONTROL_STEP);
         for _ in 0..steps {
             self.step();
-            for (sum, torque) in means
-                .actuator_torque
-                .iter_mut()
-                .zip(self.data.actuator_force())
-            {
+            for (sum, torque) in torques.iter_mut().zip(self.applied_torque()) {
                 *sum += torque;
             }
-            self.add_contacts(&mut means.contact);
+            contacts.add(self, Keep::EachBody);
+            effort.seconds += step;
+            for (motor, it) in effort.motors.iter_mut().zip(self.motor_steps()) {
+                motor.add_step(it, step);
+            }
         }
-        for sum in means.actuator_torque.iter_mut().chain(&mut means.contact) {
+        for sum in &mut torques {
             *sum /= steps as f64;
         }
         self.check()?;
-        Ok(means)
+        Ok(StepMeans {
+            applied_torque: torques,
+            contact: contacts.ground(),
+            forces: contacts.forces(),
+            effort,
+        })
     }
 
-    /// One engine step under the servo law of the world.
+    /// One engine step under the servos of the world.
     pub fn step(&mut self) {
-        let law = self.world.servo_law();
-        for (index, reference) in self.reference.iter().enumerate() {
-            let error = reference - self.data.qpos()[FREE_JOINT + index];
-            let speed = law.command(error);
-            self.data.ctrl_mut()[index] = speed;
-            // As the engine is about to work it out, before it cuts it.
-            let lag = speed - self.data.qvel()[FREE_JOINT_SPEEDS + index];
-            self.demanded[index] = self.gains[index] * lag;
-        }
+        self.motors
+            .command(&self.world, &mut self.data, &self.reference);
         self.data.step();
+        self.motors.read(&self.world, &self.data, &self.reference);
         self.steps += 1;
     }
 
@@ -169,27 +173,20 @@ impl Simulation {
         self.world.regime().time_step
     }
 
-    /// Normal force of the ground now by [`prone::robot::ContactGroup::ALL`], both sides together, N.
-    pub fn ground_contact(&self) -> [f64; 4] {
-        let mut forces = [0.0; 4];
-        self.add_contacts(&mut forces);
-        forces
+    /// **Applied torque** of each joint's motor about the joint's axis in the last step, N·m: what acted
+    /// over the step, the motor's back-EMF taken off.
+    pub fn applied_torque(&self) -> &[f64] {
+        self.motors.applied()
     }
 
-    /// **Actuator torque** of each joint about its axis in the last step, N·m.
-    pub fn actuator_torque(&self) -> &[f64] {
-        self.data.actuator_force()
+    /// What each motor did in the last step, in the order of [`Robot::drives`].
+    pub fn motor_steps(&self) -> &[MotorStep] {
+        self.motors.steps()
     }
 
     /// Joint speeds now, rad/s.
     pub fn joint_speeds(&self) -> &[f64] {
         &self.data.qvel()[FREE_JOINT_SPEEDS..]
-    }
-
-    /// **Demanded torque**: what each joint's servo asked for in the last step, N·m, before the
-    /// effort limit cut it to [`Simulation::actuator_torque`].
-    pub fn demanded_torque(&self) -> &[f64] {
-        &self.demanded
     }
 
     /// Joint angles now, rad.
@@ -221,17 +218,6 @@ impl Simulation {
     /// Engine steps done so far.
     pub const fn steps(&self) -> usize {
         self.steps
-    }
-
-    /// What the ground carries: parts of the robot that press on one another do not count, nor
-    /// does what it bumps into.
-    fn add_contacts(&self, sums: &mut [f64; 4]) {
-        for contact in self.contacts() {
-            if self.world.is_ground(contact.with) {
-                let body = &self.robot().bodies[contact.body.0];
-                sums[body.contact_group as usize] += contact.normal();
-            }
-        }
     }
 
     /// Whether position and speed still are numbers that the engine accepts.

@@ -1,23 +1,25 @@
 //! A robot in a scene under a contact regime: the engine's compiled model.
 
+pub(crate) mod drives;
 mod friction;
 mod scenery;
 
 use std::sync::Arc;
 
-use mujoco_rs::mujoco_c::mjNGAIN;
 use mujoco_rs::prelude::*;
-use mujoco_rs::wrappers::mj_editing::{MjsGeom, MjtGeomInertia, MjtLimited};
+use mujoco_rs::wrappers::mj_editing::{MjsGeom, MjtGeomInertia};
 
-use prone::robot::{BodyId, Joint, Range, Robot, ServoLaw};
+use prone::robot::{BodyId, Range, Robot};
 use prone::scene::{Obstacle, Scene, SceneError};
 use prone::statics::GRAVITY;
 
 use crate::engine_log;
 use crate::engine_numbers::robot_body;
 use crate::load::LoadedRobot;
-use prone::regime::{self, Effort, Regime, Stops};
+use prone::regime::{self, Regime, Stops};
 use scenery::Scenery;
+
+pub use drives::{TooStiff, WorldDrive, WorldServo};
 
 /// Rolling and torsional friction, m: the engine's defaults. Contacts are three-dimensional
 /// (condim 3), which leaves both unused; they are stated so that no hidden default is.
@@ -33,6 +35,7 @@ pub struct World {
     robot: Arc<Robot>,
     regime: Regime,
     stops: Arc<[Range]>,
+    drives: Arc<[WorldDrive]>,
     scene: Arc<Scene>,
     obstacles: Arc<[Obstacle]>,
     /// What each geom of the engine's model is.
@@ -64,6 +67,16 @@ pub enum WorldError {
         regime: &'static str,
         /// The engine's message.
         message: String,
+    },
+    /// A servo that no engine step of this length can hold.
+    #[error("{robot} in regime {regime}: {source}")]
+    Servo {
+        /// The robot's name.
+        robot: String,
+        /// The regime's name.
+        regime: &'static str,
+        /// Which joint, and by how much.
+        source: TooStiff,
     },
     /// The scene holds what cannot be built.
     #[error("scene {scene}: {error}")]
@@ -103,18 +116,25 @@ impl World {
             Stops::Study => robot.study_stops(),
         };
         let scenery = Scenery::from_scene(scene);
-        let model =
-            compile(loaded, regime, &stops, &scenery).map_err(|error| WorldError::Compile {
-                robot: robot.name.clone(),
-                regime: regime.name,
-                message: engine_log::one_line(&error.to_string()),
-            })?;
+        let drives = drives::of(&robot, &regime);
+        let compiled = compile(loaded, regime, &stops, &drives, &scenery);
+        let model = compiled.map_err(|error| WorldError::Compile {
+            robot: robot.name.clone(),
+            regime: regime.name,
+            message: engine_log::one_line(&error.to_string()),
+        })?;
+        drives::check(&model, &robot, &regime, &drives).map_err(|source| WorldError::Servo {
+            robot: robot.name.clone(),
+            regime: regime.name,
+            source,
+        })?;
         Ok(Self {
             geom_roles: geom_roles(&model, &scenery).into(),
             model: Arc::new(model),
             robot,
             regime,
             stops: stops.into(),
+            drives: drives.into(),
             scene: Arc::new(scene.clone()),
             obstacles: scene.obstacles().into(),
         })
@@ -135,9 +155,9 @@ impl World {
         &self.regime
     }
 
-    /// The law that the robot's servos follow.
-    pub fn servo_law(&self) -> ServoLaw {
-        self.regime.servo_law(&self.robot.control)
+    /// What drives the robot's joints, in the order of [`Robot::drives`].
+    pub fn drives(&self) -> &[WorldDrive] {
+        &self.drives
     }
 
     /// The joint stops that hold in this world, in the order of the robot's joints.
@@ -182,6 +202,7 @@ fn compile(
     loaded: &LoadedRobot,
     regime: Regime,
     stops: &[Range],
+    drives: &[WorldDrive],
     scenery: &Scenery,
 ) -> Result<MjModel, MjEditError> {
     engine_log::silence();
@@ -198,14 +219,9 @@ fn compile(
         .with_type(MjtGeomBase::mjGEOM_PLANE)
         .with_size([FLOOR_HALF_LENGTH, FLOOR_HALF_LENGTH, 0.1]);
     scenery.add_to(&mut spec, friction)?;
-    for joint in &robot.joints {
-        let limit = match regime.effort {
-            Effort::Published => joint.effort_limit,
-            Effort::Uniform(limit) => limit,
-        };
-        add_servo(&mut spec, joint, regime.servo.gain(joint), limit);
-    }
+    drives::add_actuators(&mut spec, robot, drives);
     let mut model = spec.compile()?;
+    drives::add_back_emf(&mut model, drives);
     // In the compiled model angles are radians, whatever unit the text has.
     for (index, stop) in stops.iter().enumerate() {
         // The engine's joint 0 is the free one.
@@ -272,28 +288,4 @@ fn add_world_geom(spec: &mut MjSpec, friction: [f64; 3]) -> &mut MjsGeom {
         .with_fluid_ellipsoid(0.0)
         .with_material("")
         .with_group(0)
-}
-
-/// A velocity servo on a hinge: gain, N·m·s/rad, and largest torque, N·m. Every property is stated here too.
-fn add_servo(spec: &mut MjSpec, joint: &Joint, gain: f64, limit: f64) {
-    spec.add_actuator()
-        .with_name(&joint.name)
-        .with_target(&joint.name)
-        .with_trntype(MjtTrn::mjTRN_JOINT)
-        .with_gear([1.0, 0.0, 0.0, 0.0, 0.0, 0.0])
-        .with_gainprm([0.0; mjNGAIN as usize])
-        .with_forcerange([-limit, limit])
-        .with_forcelimited(MjtLimited::mjLIMITED_TRUE)
-        .with_ctrllimited(MjtLimited::mjLIMITED_FALSE)
-        .with_ctrlrange([0.0; 2])
-        .with_actlimited(MjtLimited::mjLIMITED_FALSE)
-        .with_actrange([0.0; 2])
-        .with_inheritrange(0.0)
-        .with_damping([0.0; 3])
-        .with_armature(0.0)
-        .with_delay(0.0)
-        .with_nsample(0)
-        .with_actdim(-1) // follows from the kind of dynamics, which is none
-        .with_group(0)
-        .set_to_velocity(gain);
 }

@@ -7,7 +7,7 @@ use prone::chain::ChainAngles;
 use prone::frames::{Ground, Root, Transform};
 use prone::gait::{CheckedTrajectory, Gait, PhaseDuration, Sample, TrajectoryError};
 use prone::mapping::Mapping;
-use prone::robot::{BodyPoses, ContactGroup, JointAngles, JointId, Robot, Shape};
+use prone::robot::{BodyPoses, JointAngles, JointId, Robot, Shape};
 use prone_record::crawl_summary::SheetClamp;
 use prone_record::tables;
 
@@ -165,8 +165,7 @@ pub(crate) fn planned_poses(
 /// Lowest point of what toes and elbows are to keep off the floor, trunk and legs, m.
 pub(crate) fn body_bottom(robot: &Robot, poses: &BodyPoses<Ground>) -> f64 {
     robot.bottom(poses, |shape: &Shape| {
-        let group = robot.bodies[shape.body.0].contact_group;
-        matches!(group, ContactGroup::Torso | ContactGroup::Leg)
+        robot.bodies[shape.body.0].contact_group.is_body()
     })
 }
 

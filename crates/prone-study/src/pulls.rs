@@ -1,7 +1,8 @@
 //! What a planned and what a simulated pull leave behind.
 
 use prone::gait::{CheckedTrajectory, Gait, PhaseDuration, TrajectoryError};
-use prone::robot::{JointAngles, Robot};
+use prone::robot::{ContactGroup, JointAngles, Robot};
+use prone::scene::ContactForce;
 use prone_record::pulls::{ChainRecord, ChainSample, PullRecord, PullRow};
 use prone_sim::World;
 use prone_sim::pull::Pull;
@@ -70,10 +71,11 @@ pub fn pull_record(robot: &Robot, gait: &Gait, duration: PhaseDuration, pull: &P
         time_s: row.time,
         cycle_percent: 100.0 * (k + 1) as f64 / steps,
         // The recordings report minus the motor torque about the joint's axis.
-        torque_nm: pitch.map(|id| -row.actuator_torque[id.0]),
+        torque_nm: pitch.map(|id| -row.applied_torque[id.0]),
         command_rad: pick(&row.command),
         angle_rad: pick(&row.angles),
-        contact_n: row.contact,
+        contact_n: ContactGroup::as_in_the_study(row.contact),
+        squeeze_n: squeeze(robot, &row.forces),
         top_mm: row.top * 1e3,
         head_top_mm: row.head_top * 1e3,
     });
@@ -82,4 +84,20 @@ pub fn pull_record(robot: &Robot, gait: &Gait, duration: PhaseDuration, pull: &P
         duration_s: duration.seconds(),
         rows: rows.collect(),
     }
+}
+
+/// Internal squeeze of the planted chain, N a side: half the difference of the horizontal forces
+/// forwards that the ground has on toes and on arms, half of which each side carries. Positive where
+/// the ground pushes them towards one another.
+fn squeeze(robot: &Robot, forces: &[ContactForce]) -> f64 {
+    let on_ground = forces.iter().filter(|it| it.obstacle.is_none());
+    let forwards = on_ground.map(|it| {
+        let group = robot.bodies[it.body.0].contact_group;
+        match group {
+            ContactGroup::Toe => it.force.x,
+            _ if group.is_front() => -it.force.x,
+            _ => 0.0,
+        }
+    });
+    forwards.sum::<f64>() / 4.0
 }

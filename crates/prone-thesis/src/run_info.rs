@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use serde::{Deserialize, Serialize};
 
-use prone::regime::{CONTROL_STEP, Effort, SOLIMP, SOLREF, Stops, TIME_STEP};
+use prone::regime::{CONTROL_STEP, Effort, SOLIMP, SOLREF, Stops, TIME_STEP, VelocityServo};
 use prone_record::curves_info::CurvesInfo;
 use prone_record::head::Head;
 use prone_record::program::{Program, RobotInfo};
@@ -114,8 +114,8 @@ impl RunInfo {
                 },
                 time_step_s: TIME_STEP,
                 control_step_s: CONTROL_STEP,
-                servo_rate_per_s: world.servo_law().rate,
-                servo_speed_rad_s: world.servo_law().speed,
+                servo_rate_per_s: VelocityServo::RECORDINGS.rate,
+                servo_speed_rad_s: VelocityServo::RECORDINGS.speed,
                 solref: SOLREF,
                 solimp: SOLIMP,
                 start_posture: study.start_posture.clone(),

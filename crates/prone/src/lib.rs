@@ -4,7 +4,8 @@
 //! chain. This crate holds that chain ([`chain`]), the curves that steer it ([`gait`]), the way
 //! from chain angles to a robot's joints ([`mapping`]), the robot ([`robot`]) and what it crawls
 //! on and under ([`scene`]) as data, the torques that hold it still ([`statics`]) or that a table
-//! knows ([`torque_map`]), what a crawl costs ([`cost`]) and how it keeps its line ([`steering`]).
+//! knows ([`torque_map`]), what a crawl costs ([`cost`]), what it asks of the motors ([`motor`]) and how it keeps its line
+//! ([`steering`]).
 //! Which way is up, as its inertial unit tells, is in [`attitude`]. The crawler itself is a state
 //! machine ([`crawl`]) over whatever can be driven ([`port`]).
 //!
@@ -25,6 +26,7 @@ pub mod crawl;
 pub mod frames;
 pub mod gait;
 pub mod mapping;
+pub mod motor;
 pub mod port;
 pub mod regime;
 pub mod robot;

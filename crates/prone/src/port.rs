@@ -11,7 +11,7 @@
 use std::error::Error;
 
 use crate::attitude::ImuReading;
-use crate::robot::{JointAngles, Range, Robot};
+use crate::robot::{ContactGroup, JointAngles, Range, Robot};
 use crate::steering::Bearing;
 
 /// What a robot feels at one instant.
@@ -26,8 +26,8 @@ pub struct Senses {
     /// Where the robot is and where it heads, in the frame of the line that it follows, where
     /// something knows.
     pub bearing: Option<Bearing>,
-    /// Normal force of the ground by [`crate::robot::ContactGroup::ALL`], N, where it is felt.
-    pub touch: Option<[f64; 4]>,
+    /// Normal force of the ground by [`ContactGroup::ALL`], N, where it is felt.
+    pub touch: Option<[f64; ContactGroup::COUNT]>,
 }
 
 /// State of an inertial unit at one instant.

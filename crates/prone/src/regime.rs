@@ -4,7 +4,7 @@
 //! them, and with it every torque, depends on how friction is modelled. So friction is never a
 //! free number here but a property of a named regime, and every record says which one it used.
 
-use crate::robot::{Control, Joint, ServoLaw};
+use crate::robot::{Control, Joint};
 
 /// How contacts, stops and motors are modelled.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,12 +19,8 @@ pub struct Regime {
     pub stops: Stops,
     /// Which torque limit holds.
     pub effort: Effort,
-    /// Which servo gains hold.
+    /// How the joints are driven.
     pub servo: Servo,
-    /// Law of the servos in place of the robot's own ([`Control::servo`]).
-    pub servo_law: Option<ServoLaw>,
-    /// Largest speed that a servo commands in place of the law's, rad/s.
-    pub servo_speed: Option<f64>,
     /// Length of one engine step, s; a whole number of them makes a [`CONTROL_STEP`].
     pub time_step: f64,
 }
@@ -48,21 +44,87 @@ pub enum Effort {
     Uniform(f64),
 }
 
-/// Which servo gains a regime uses.
+/// How a regime drives the joints.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Servo {
-    /// The robot's own ([`crate::robot::Joint::servo_gain`]).
-    Robot,
-    /// The same velocity gain for all joints, N·m·s/rad.
-    Uniform(f64),
+    /// Direct-current motors under a position controller ([`crate::motor`]).
+    DcMotor(MotorServo),
+    /// The servo of the published recordings, which no robot has: one without limits of speed or
+    /// supply, for their replication only.
+    Velocity(VelocityServo),
 }
 
-impl Servo {
+/// What a regime says about motors that is not the robot's own.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MotorServo {
+    /// What the stiffness of every servo ([`Joint::servo_stiffness`]) is multiplied by.
+    pub stiffness: f64,
+    /// Efficiency of the gears in place of the robot's ([`Control::gear_efficiency`]).
+    pub gear_efficiency: Option<f64>,
+}
+
+/// A servo that follows a speed: torque = gain · (v − ω) with v = clip(rate · error, ±speed).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct VelocityServo {
+    /// Commanded speed per position error, 1/s.
+    pub rate: f64,
+    /// Largest commanded speed, rad/s.
+    pub speed: f64,
+    /// The same velocity gain for all joints, N·m·s/rad, in place of the one that makes their
+    /// stiffness.
+    pub gain: Option<f64>,
+}
+
+impl MotorServo {
+    /// The robot's own.
+    pub const ROBOT: Self = Self {
+        stiffness: 1.0,
+        gear_efficiency: None,
+    };
+
+    /// Half as stiff: one end of what is not known about a robot's controller.
+    pub const SOFT: Self = Self {
+        stiffness: 0.5,
+        ..Self::ROBOT
+    };
+
+    /// Four times as stiff: the other end.
+    pub const STIFF: Self = Self {
+        stiffness: 4.0,
+        ..Self::ROBOT
+    };
+
+    /// Efficiency of a robot's gears.
+    pub fn gear_efficiency(&self, control: &Control) -> f64 {
+        self.gear_efficiency.unwrap_or(control.gear_efficiency)
+    }
+}
+
+impl VelocityServo {
+    /// That of the recordings.
+    pub const RECORDINGS: Self = Self {
+        rate: 20.0,
+        speed: 3.0,
+        gain: None,
+    };
+
+    /// The speed commanded at a position error, rad, in rad/s.
+    pub const fn command(&self, error: f64) -> f64 {
+        (self.rate * error).clamp(-self.speed, self.speed)
+    }
+
     /// Velocity gain of a joint's servo, N·m·s/rad.
-    pub const fn gain(self, joint: &Joint) -> f64 {
+    pub fn gain(&self, joint: &Joint) -> f64 {
+        self.gain.unwrap_or(joint.servo_stiffness / self.rate)
+    }
+}
+
+impl Effort {
+    /// Torque limit of a joint, N·m.
+    pub const fn limit(self, joint: &Joint) -> f64 {
         match self {
-            Self::Robot => joint.servo_gain,
-            Self::Uniform(gain) => gain,
+            Self::Published => joint.effort_limit,
+            Self::Uniform(limit) => limit,
         }
     }
 }
@@ -76,13 +138,11 @@ impl Regime {
         impratio: 1.0,
         stops: Stops::Study,
         effort: Effort::Uniform(30.0),
-        servo: Servo::Robot,
-        servo_law: Some(RECORDINGS),
-        servo_speed: None,
+        servo: Servo::Velocity(VelocityServo::RECORDINGS),
         time_step: TIME_STEP,
     };
 
-    /// Contacts that stick, with the manufacturer's limits on and the robot's own servos: for moving
+    /// Contacts that stick, with the robot's own motors and the manufacturer's limits: for moving
     /// forward.
     pub const LOCOMOTION: Self = Self {
         name: "locomotion",
@@ -90,9 +150,7 @@ impl Regime {
         impratio: 10.0,
         stops: Stops::Maker,
         effort: Effort::Published,
-        servo: Servo::Robot,
-        servo_law: None,
-        servo_speed: None,
+        servo: Servo::DcMotor(MotorServo::ROBOT),
         time_step: TIME_STEP,
     };
 
@@ -114,12 +172,11 @@ pub const TIME_STEP: f64 = 0.0025;
 pub const CONTROL_STEP: f64 = 0.05;
 
 impl Regime {
-    /// The law that a robot's servos follow.
-    pub fn servo_law(&self, control: &Control) -> ServoLaw {
-        let law = self.servo_law.unwrap_or(control.servo);
-        ServoLaw {
-            speed: self.servo_speed.unwrap_or(law.speed),
-            ..law
+    /// The same regime with other motors.
+    pub const fn with_motors(self, motors: MotorServo) -> Self {
+        Self {
+            servo: Servo::DcMotor(motors),
+            ..self
         }
     }
 
@@ -127,18 +184,12 @@ impl Regime {
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "a time of milliseconds to minutes over a step of a millisecond or more"
+        reason = "a time of milliseconds to minutes over a step of a quarter of a millisecond or more"
     )]
     pub fn steps_in(&self, seconds: f64) -> usize {
         ((seconds / self.time_step).round() as usize).max(1)
     }
 }
-
-/// Servo law of the recordings.
-pub const RECORDINGS: ServoLaw = ServoLaw {
-    rate: 20.0,
-    speed: 3.0,
-};
 
 /// Soft-contact time constant, s, and damping ratio (the engine's default).
 pub const SOLREF: [f64; 2] = [0.02, 1.0];
@@ -148,49 +199,39 @@ pub const SOLIMP: [f64; 5] = [0.9, 0.99, 0.001, 0.5, 2.0];
 
 #[cfg(test)]
 mod tests {
-    use crate::robot::SteeringGains;
+    use crate::robot::testing::two_armed;
 
     use super::*;
 
     #[test]
     fn a_control_step_is_a_whole_number_of_engine_steps() {
-        let fine = Regime {
-            time_step: 0.001,
-            ..Regime::LOCOMOTION
-        };
-        for regime in [Regime::TORQUE_STUDY, fine] {
+        for time_step in [0.000_25, 0.0005, 0.001, 0.001_25, 0.0025] {
+            let regime = Regime {
+                time_step,
+                ..Regime::LOCOMOTION
+            };
             let steps = regime.steps_in(CONTROL_STEP) as f64;
             assert!((steps * regime.time_step - CONTROL_STEP).abs() < 1e-15);
         }
     }
 
-    /// Of a robot with other servos than the recordings' one.
     #[test]
-    fn locomotion_has_the_robots_servo_law_and_the_study_its_own() {
-        let own = ServoLaw {
-            rate: 12.0,
-            speed: 5.0,
-        };
-        let control = Control {
-            command_step: 0.01,
-            servo: own,
-            stiff_servo_gain: 20.0,
-            steering: SteeringGains {
-                yaw: 0.9,
-                lateral: 3.5,
-                lateral_sum: 0.35,
-            },
-            uphill: 0.03,
-        };
-        assert_eq!(Regime::LOCOMOTION.servo_law(&control), own);
-        for study in [Regime::TORQUE_STUDY, Regime::TABLE] {
-            assert_eq!(study.servo_law(&control), RECORDINGS, "{}", study.name);
+    fn a_velocity_servo_commands_in_proportion_up_to_its_speed_on_both_sides() {
+        let servo = VelocityServo::RECORDINGS;
+        assert!((servo.command(0.1) - 2.0).abs() < f64::EPSILON);
+        assert!((servo.command(-0.1) + 2.0).abs() < f64::EPSILON);
+        assert!((servo.command(1.0) - 3.0).abs() < f64::EPSILON);
+        assert!((servo.command(-1.0) + 3.0).abs() < f64::EPSILON);
+        assert!(servo.command(f64::NAN).is_nan());
+    }
+
+    /// A small error moves a velocity servo's joint with the torque that its stiffness asks for.
+    #[test]
+    fn identity_a_velocity_servo_has_the_joints_stiffness() {
+        let servo = VelocityServo::RECORDINGS;
+        for joint in &two_armed().joints {
+            let torque = servo.gain(joint) * servo.command(0.01);
+            assert!((torque - joint.servo_stiffness * 0.01).abs() < 1e-12);
         }
-        let brisk = Regime {
-            servo_speed: Some(8.0),
-            ..Regime::LOCOMOTION
-        };
-        let faster = ServoLaw { speed: 8.0, ..own };
-        assert_eq!(brisk.servo_law(&control), faster);
     }
 }

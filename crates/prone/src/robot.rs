@@ -5,6 +5,7 @@
 
 pub mod bounds;
 mod control;
+mod drive;
 mod imu;
 mod joint_angles;
 mod kinematics;
@@ -17,7 +18,8 @@ pub(crate) mod testing;
 mod tops;
 mod tree;
 
-pub use control::{Control, SearchSetup, ServoLaw, SteeringGains};
+pub use control::{Control, SearchSetup, SteeringGains};
+pub use drive::Drive;
 pub use imu::{Imu, SensorNoise};
 pub use joint_angles::JointAngles;
 pub use kinematics::BodyPoses;
@@ -52,6 +54,9 @@ pub struct Robot {
     pub bodies: Vec<Body>,
     /// Hinges in the model's order.
     pub joints: Vec<Joint>,
+    /// Joints that one motor turns together, which the model ties by an equality; every other joint
+    /// has a motor of its own ([`Self::drives`]).
+    pub shared_motors: Vec<Vec<JointId>>,
     /// Primitives that collide.
     pub shapes: Vec<Shape>,
     /// What makes the sagittal chain.
@@ -85,10 +90,8 @@ pub struct Body {
     pub mass: f64,
     /// Centre of mass in the body's own frame.
     pub centre_of_mass: Point<Link>,
-    /// Which row of a record its contacts count for.
+    /// Which column of a record its contacts count for.
     pub contact_group: ContactGroup,
-    /// Whether it belongs to the head, whose height is recorded apart.
-    pub is_head: bool,
 }
 
 /// One hinge.
@@ -104,12 +107,12 @@ pub struct Joint {
     pub anchor: Point<Link>,
     /// The manufacturer's limits, rad.
     pub range: Range,
-    /// The manufacturer's effort limit, N·m.
+    /// The manufacturer's effort limit, N·m: what the current limit of its motor leaves at the joint.
     pub effort_limit: f64,
     /// The manufacturer's speed limit, rad/s.
     pub speed_limit: f64,
-    /// Velocity gain of the simulated servo, N·m·s/rad.
-    pub servo_gain: f64,
+    /// Torque that its servo asks for per position error, N·m/rad.
+    pub servo_stiffness: f64,
     /// The motor behind the joint, where its figures are known.
     pub motor: Option<Motor>,
 }
@@ -157,17 +160,34 @@ pub struct Range {
 pub enum ContactGroup {
     /// Feet: the rear support of the chain.
     Toe,
-    /// Forearms and hands: the front support.
+    /// Arms to the forearms: the front support.
     Elbow,
-    /// Trunk, pelvis and head.
+    /// Trunk and pelvis.
     Torso,
     /// Thighs and shins.
     Leg,
+    /// Neck and head, which nothing should rest on; their height is recorded apart.
+    Head,
+    /// Hands, whose motors are the weakest.
+    Hand,
 }
 
 impl ContactGroup {
     /// All groups, in the order of a record's columns.
-    pub const ALL: [Self; 4] = [Self::Toe, Self::Elbow, Self::Torso, Self::Leg];
+    pub const ALL: [Self; Self::COUNT] = [
+        Self::Toe,
+        Self::Elbow,
+        Self::Torso,
+        Self::Leg,
+        Self::Head,
+        Self::Hand,
+    ];
+
+    /// How many there are.
+    pub const COUNT: usize = 6;
+
+    /// The groups of the published study, which counts hands as elbows and the head as torso.
+    pub const OF_THE_STUDY: [Self; 4] = [Self::Toe, Self::Elbow, Self::Torso, Self::Leg];
 
     /// Lower-case name, as in `robot.toml` and the record's columns.
     pub const fn name(self) -> &'static str {
@@ -176,7 +196,32 @@ impl ContactGroup {
             Self::Elbow => "elbow",
             Self::Torso => "torso",
             Self::Leg => "leg",
+            Self::Head => "head",
+            Self::Hand => "hand",
         }
+    }
+
+    /// Whether it is the front support of the chain: arms with their hands.
+    pub const fn is_front(self) -> bool {
+        matches!(self, Self::Elbow | Self::Hand)
+    }
+
+    /// Whether it is the body, which the chain should carry: trunk, head and legs.
+    pub const fn is_body(self) -> bool {
+        matches!(self, Self::Torso | Self::Leg | Self::Head)
+    }
+
+    /// Forces by [`Self::ALL`] as forces by [`Self::OF_THE_STUDY`].
+    pub const fn as_in_the_study(forces: [f64; Self::COUNT]) -> [f64; 4] {
+        let [toe, elbow, torso, leg, head, hand] = forces;
+        [toe, elbow + hand, torso + head, leg]
+    }
+}
+
+impl Body {
+    /// Whether it belongs to the head.
+    pub const fn is_head(&self) -> bool {
+        matches!(self.contact_group, ContactGroup::Head)
     }
 }
 

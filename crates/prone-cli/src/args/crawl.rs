@@ -32,9 +32,11 @@ Examples:
   prone crawl run low-175 --turn-deg-per-cycle 12 --cycles 10 --json | jq .yaw_deg
   prone crawl run thesis-nominal --scene table --cycles 25 --record out/table
   prone crawl run hip-10 --uphill low-175 --scene ramp --seed 1 --cycles 20
+  prone crawl run thesis-nominal --rest-s 3 --json | jq .verdict
 
-Contact regime `locomotion`: friction 0.7 where nothing else is said, the manufacturer's effort and
-joint limits on. The robot starts with its foremost point at x = 0; a plate of --ceiling-mm begins
+Contact regime `locomotion`: friction 0.7 where nothing else is said, the robot's own motors, the
+manufacturer's effort and joint limits on. `verdict` is whether the motors of a robot could do it:
+continuous, limited (for minutes), or not on a robot. The robot starts with its foremost point at x = 0; a plate of --ceiling-mm begins
 50 mm ahead. The record folder appears when all is done, and replaces an earlier result in one step;
 all its files but timing.json are the same, byte for byte, for the same input, on any number of
 threads. Ctrl-C ends the simulation at once; pictures of a record that are being drawn are finished
@@ -110,9 +112,16 @@ pub(crate) struct CrawlRunArgs {
     /// What all durations of the cycle are multiplied by
     #[arg(long, value_name = "X", default_value = "1", value_parser = time_scale, allow_negative_numbers = true)]
     pub(crate) time_scale: TimeScale,
-    /// Gains of the servos
-    #[arg(long, value_enum, default_value = "soft")]
+    /// Rest after each cycle, s, in the posture from which the next pull begins: motors cool meanwhile
+    #[arg(long, value_name = "S", default_value = "0", value_parser = rest, allow_negative_numbers = true)]
+    pub(crate) rest_s: f64,
+    /// Stiffness of the servos
+    #[arg(long, value_enum, default_value = "normal")]
     pub(crate) servo: ServoName,
+    /// Share of the motors' torque that the gears pass on, in place of `gear_efficiency` of robot.toml
+    /// (NAO 0.6, an estimate)
+    #[arg(long, value_name = "E", value_parser = gear_efficiency, allow_negative_numbers = true)]
+    pub(crate) gear_efficiency: Option<f64>,
     /// Length of one engine step, ms
     #[arg(long, value_enum, value_name = "MS", default_value = "2.5")]
     pub(crate) time_step_ms: TimeStepName,
@@ -129,12 +138,14 @@ pub(crate) struct CrawlRunArgs {
     pub(crate) json: bool,
 }
 
-/// Which servo gains hold.
+/// How stiff the servos are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum ServoName {
-    /// The robot's own: on the NAO 80 N·m/rad at the legs, 40 at the arms
+    /// `servo_stiffness_nm_rad` of robot.toml: on the NAO 80 N·m/rad at legs and head, 40 at the arms
+    Normal,
+    /// Half as stiff
     Soft,
-    /// `stiff_servo_gain_nms` of robot.toml on every joint: on the NAO 400 N·m/rad
+    /// Four times as stiff
     Stiff,
 }
 
@@ -142,10 +153,46 @@ pub(crate) enum ServoName {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum TimeStepName {
     // Without documentation, which would make the help of all options longer.
-    #[value(name = "2.5")]
-    Usual,
+    #[value(name = "0.25", alias = ".25")]
+    Finest,
+    #[value(name = "0.5", alias = ".5")]
+    Finer,
     #[value(name = "1")]
     Fine,
+    #[value(name = "1.25")]
+    Half,
+    #[value(name = "2.5")]
+    Usual,
+}
+
+impl TimeStepName {
+    /// The step, s; nothing of the regime's own.
+    pub(crate) const fn seconds(self) -> Option<f64> {
+        match self {
+            Self::Finest => Some(0.000_25),
+            Self::Finer => Some(0.0005),
+            Self::Fine => Some(0.001),
+            Self::Half => Some(0.001_25),
+            Self::Usual => None,
+        }
+    }
+}
+
+fn rest(text: &str) -> Result<f64, String> {
+    within(text, CrawlExperiment::REST_BOUNDS_S)
+}
+
+fn gear_efficiency(text: &str) -> Result<f64, String> {
+    within(text, CrawlExperiment::GEAR_EFFICIENCY_BOUNDS)
+}
+
+fn within(text: &str, (lowest, highest): (f64, f64)) -> Result<f64, String> {
+    let value: f64 = text.trim().parse().map_err(|_| "not a number".to_owned())?;
+    if (lowest..=highest).contains(&value) {
+        Ok(value)
+    } else {
+        Err(format!("outside {lowest} to {highest}"))
+    }
 }
 
 fn heading(text: &str) -> Result<f64, String> {
@@ -159,13 +206,7 @@ fn heading(text: &str) -> Result<f64, String> {
 }
 
 fn offset(text: &str) -> Result<f64, String> {
-    let degrees: f64 = text.trim().parse().map_err(|_| "not a number".to_owned())?;
-    let (lowest, highest) = CrawlExperiment::OFFSET_BOUNDS_DEG;
-    if (lowest..=highest).contains(&degrees) {
-        Ok(degrees)
-    } else {
-        Err(format!("outside {lowest} to {highest}"))
-    }
+    within(text, CrawlExperiment::OFFSET_BOUNDS_DEG)
 }
 
 fn time_scale(text: &str) -> Result<TimeScale, String> {

@@ -90,19 +90,23 @@ pub(crate) struct OptimizeArgs {
     /// cycle: least advance per cycle, mm [default: that of robot.toml for heat and peak (NAO 120), else 10]
     #[arg(long, value_name = "MM", value_parser = super::passage::height, allow_negative_numbers = true)]
     pub(crate) least_advance_mm: Option<f64>,
-    /// cycle: largest torque that a shoulder's servo may demand, N·m [default: any]
+    /// cycle: largest torque that the position error of a shoulder may ask for before any limit, N·m
+    /// [default: any]
     #[arg(long, value_name = "NM", value_parser = positive_number, allow_negative_numbers = true)]
     pub(crate) demanded_shoulder_nm: Option<f64>,
     /// cycle: largest share of the weight on trunk and legs in the pull, percent [default: any]
     #[arg(long, value_name = "P", value_parser = percent, allow_negative_numbers = true)]
     pub(crate) body_share_percent: Option<f64>,
-    /// cycle, heat and peak: heat is the larger of those with soft and with stiff servos, each over
+    /// cycle, heat and peak: heat is the larger of those with normal and with stiff servos, each over
     /// that of this cycle, instead of their geometric mean
     #[arg(long, value_name = "GAIT")]
     pub(crate) worst_over: Option<String>,
     /// cycle, heat and peak: largest heat, s/m, or share with --worst-over [default: any]
     #[arg(long, value_name = "H", value_parser = positive_number, allow_negative_numbers = true)]
     pub(crate) most_heat: Option<f64>,
+    /// cycle: largest mean force on the head over 20 ms, N [default: 1]
+    #[arg(long, value_name = "N", value_parser = positive_number, allow_negative_numbers = true)]
+    pub(crate) most_head_n: Option<f64>,
     /// Name of the found gait [default: best-OBJECTIVE]
     #[arg(long, value_name = "NAME", value_parser = name)]
     pub(crate) name: Option<String>,

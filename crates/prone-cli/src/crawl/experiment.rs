@@ -9,11 +9,8 @@ use prone_record::experiment::{
 };
 
 use crate::Failure;
-use crate::args::{CrawlRunArgs, ServoName, TimeStepName};
+use crate::args::{CrawlRunArgs, ServoName};
 use crate::gait::find_cycle;
-
-/// Length of a fine engine step, s.
-const FINE_STEP_S: f64 = 0.001;
 
 /// What was typed, with the texts of all files that it names.
 pub(super) fn of(args: &CrawlRunArgs) -> Result<CrawlExperiment, Failure> {
@@ -38,14 +35,14 @@ pub(super) fn of(args: &CrawlRunArgs) -> Result<CrawlExperiment, Failure> {
         },
         steering: steering(args),
         time_scale: args.time_scale.value(),
+        rest_s: args.rest_s,
+        gear_efficiency: args.gear_efficiency,
         servo: match args.servo {
+            ServoName::Normal => ServoChoice::Normal,
             ServoName::Soft => ServoChoice::Soft,
             ServoName::Stiff => ServoChoice::Stiff,
         },
-        time_step_s: match args.time_step_ms {
-            TimeStepName::Usual => None,
-            TimeStepName::Fine => Some(FINE_STEP_S),
-        },
+        time_step_s: args.time_step_ms.seconds(),
         joint_offset_deg: args.joint_offset_deg,
         seed: args.seed,
         detail: if args.record.is_some() {

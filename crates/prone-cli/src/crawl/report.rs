@@ -2,6 +2,7 @@
 
 use std::io::{Result, Write};
 
+use prone::motor::HEAD_CARRIES;
 use prone::robot::BodyPart;
 use prone_record::crawl_summary::{CrawlSummary, PlateContact};
 
@@ -24,7 +25,7 @@ pub(crate) fn print(summary: &CrawlSummary, out: &mut dyn Write) -> Result<()> {
     writeln!(
         out,
         "  path {:.1} mm: {:.1} mm per cycle, {:.1} mm/s; {:.1} mm ahead, {:+.1} mm to the left, heading {:+.1}°
-  a cycle: {:.1} mm in the pull, {:.1} mm in the recovery; trunk and legs carry {:.0} % and {:.0} % of the weight",
+  a cycle: {:.1} mm in the pull, {:.1} mm in the recovery; trunk, head and legs carry {:.0} % and {:.0} % of the weight",
         s.path_mm,
         s.mm_per_cycle,
         s.mm_per_s,
@@ -55,9 +56,15 @@ pub(crate) fn print(summary: &CrawlSummary, out: &mut dyn Write) -> Result<()> {
         .map(|(part, top)| format!(" {} {top:.1}", part.name()))
         .collect();
     writeln!(out, "  highest points, mm:{}", tops.concat())?;
+    print_motors(s, out)?;
+    print_touched_and_stopped(s, out)
+}
+
+/// What the motors did, and whether those of a robot could do it.
+fn print_motors(s: &CrawlSummary, out: &mut dyn Write) -> Result<()> {
     writeln!(
         out,
-        "  peak torque {:.2} of the effort limit ({}); demanded of a shoulder {:.2} N·m, more than its limit {:.1} % of the time",
+        "  peak torque {:.2} of the effort limit ({}); position error of a shoulder asks for up to {:.2} N·m, its motor is at its limit {:.1} % of the time",
         s.peak_torque_over_rated,
         s.peak_torque_joint,
         s.demanded_peak_shoulder_nm,
@@ -67,18 +74,83 @@ pub(crate) fn print(summary: &CrawlSummary, out: &mut dyn Write) -> Result<()> {
     match &s.saturated_joint {
         Some(joint) => writeln!(
             out,
-            "  at the effort limit {percent:.1} % of the time ({joint})"
+            "  at the current limit {percent:.1} % of the time ({joint})"
         )?,
-        None => writeln!(out, "  never at an effort limit")?,
+        None => writeln!(out, "  never at a current limit")?,
     }
-    if let Some((heat, cost)) = s.heat_per_metre_s.zip(s.cost_of_transport) {
+    let lag = s.joints.iter();
+    let lag = lag.max_by(|a, b| a.largest_lag_deg.total_cmp(&b.largest_lag_deg));
+    if let Some(motor) = lag {
+        let (lag, joint) = (motor.largest_lag_deg, &motor.joint);
+        writeln!(out, "  largest lag behind the command {lag:.1}° ({joint})")?;
+    }
+    let head = s.ground.head;
+    if head.peak_n >= HEAD_CARRIES {
         writeln!(
             out,
-            "  motor heat {heat:.0} s per metre; cost of transport {cost:.2} (positive work {:.1} J)",
-            s.work_j
+            "  the head carries weight {:.0} % of the time, up to {:.0} N",
+            head.share_of_time * 100.0,
+            head.peak_n
         )?;
     }
-    print_touched_and_stopped(s, out)
+    if let Some(cost) = s.cost_of_transport {
+        write!(
+            out,
+            "  cost of transport {cost:.2} (positive work {:.1} J)",
+            s.work_j
+        )?;
+        match s.heat_per_metre_s.zip(s.heat_per_second) {
+            Some((metre, second)) => {
+                writeln!(
+                    out,
+                    "; motor heat {metre:.0} s per metre, {second:.2} per second"
+                )?;
+            }
+            None => writeln!(out, "; motor heat unknown")?,
+        }
+    }
+    print_verdict(s, out)
+}
+
+/// Efficiencies of gears beside the one that is supposed.
+const OTHER_GEARS: [f64; 2] = [0.5, 0.75];
+
+fn print_verdict(s: &CrawlSummary, out: &mut dyn Write) -> Result<()> {
+    let verdict = &s.verdict;
+    if let Some(unknown) = &verdict.unknown {
+        return writeln!(out, "  on a robot: unknown, {unknown}");
+    }
+    let duty = verdict.duty.as_deref().unwrap_or("unknown");
+    let reasons = verdict.reasons.iter().map(|reason| {
+        let joint = reason.joint.as_deref();
+        let joint = joint.map_or_else(String::new, |joint| format!(" ({joint})"));
+        let (measure, value) = (&reason.measure, reason.value);
+        format!(
+            "{measure} {value:.2}{joint}, more than {}",
+            reason.continuous
+        )
+    });
+    let reasons: Vec<String> = reasons.collect();
+    let because = if reasons.is_empty() {
+        String::new()
+    } else {
+        format!(": {}", reasons.join("; "))
+    };
+    writeln!(out, "  on a robot's motors: {duty}{because}")?;
+    let warmest = s.joints.iter().filter_map(|motor| {
+        let rms = motor.rms_over_nominal?;
+        Some((rms, &motor.joint))
+    });
+    if let Some((rms, joint)) = warmest.max_by(|a, b| a.0.total_cmp(&b.0)) {
+        let supposed = verdict.gear_efficiency;
+        let others = OTHER_GEARS.map(|gears| format!("{:.2} with {gears}", rms * supposed / gears));
+        writeln!(
+            out,
+            "  RMS torque over nominal at most {rms:.2} ({joint}), gears that pass on {supposed} of it; the same torque: {}",
+            others.join(", ")
+        )?;
+    }
+    Ok(())
 }
 
 fn print_touched_and_stopped(s: &CrawlSummary, out: &mut dyn Write) -> Result<()> {

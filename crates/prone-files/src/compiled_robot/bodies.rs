@@ -6,6 +6,7 @@ use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
 use prone::frames::{Frame, Transform};
+use prone::motor::check_speed;
 use prone::robot::{Body, BodyId, ContactGroup, Joint, Motor, Range, Robot, Shape, Solid, bounds};
 
 use super::names::{Names, body_name, joint_name};
@@ -24,7 +25,6 @@ pub(super) struct BodyDocument {
     pub(super) centre_of_mass_m: [f64; 3],
     #[serde(with = "ContactGroupName")]
     contact_group: ContactGroup,
-    is_head: bool,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -34,6 +34,8 @@ enum ContactGroupName {
     Elbow,
     Torso,
     Leg,
+    Head,
+    Hand,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -46,7 +48,7 @@ pub(super) struct JointDocument {
     range_rad: [f64; 2],
     effort_limit_nm: f64,
     speed_limit_rad_s: f64,
-    servo_gain_nms: f64,
+    servo_stiffness_nm_rad: f64,
     #[serde(deserialize_with = "Option::deserialize")]
     motor: Option<MotorDocument>,
 }
@@ -99,7 +101,6 @@ impl BodyDocument {
             mass_kg: body.mass,
             centre_of_mass_m: body.centre_of_mass.metres().to_array(),
             contact_group: body.contact_group,
-            is_head: body.is_head,
         }
     }
 
@@ -132,7 +133,6 @@ impl BodyDocument {
             mass: mass.within(self.mass_kg, 0.0..=bounds::MASS)?,
             centre_of_mass: at.key("centre_of_mass_m").point(self.centre_of_mass_m)?,
             contact_group: self.contact_group,
-            is_head: self.is_head,
         })
     }
 
@@ -191,7 +191,7 @@ impl JointDocument {
             range_rad: ends(joint.range),
             effort_limit_nm: joint.effort_limit,
             speed_limit_rad_s: joint.speed_limit,
-            servo_gain_nms: joint.servo_gain,
+            servo_stiffness_nm_rad: joint.servo_stiffness,
             motor: joint.motor.as_ref().map(MotorDocument::new),
         }
     }
@@ -199,7 +199,7 @@ impl JointDocument {
     pub(super) fn read(&self, at: Place<'_>, names: &Names<'_>) -> Result<Joint, Violation> {
         let positive = |key, value, largest| at.key(key).positive(value, largest);
         let range = at.key("range_rad");
-        Ok(Joint {
+        let joint = Joint {
             motor: optional(self.motor.as_ref(), |motor| motor.read(at.key("motor")))?,
             name: at.key("name").name(&self.name)?,
             body: names.body(at.key("body"), &self.body)?,
@@ -208,8 +208,15 @@ impl JointDocument {
             range: range.range(self.range_rad, bounds::NUMBER)?,
             effort_limit: positive("effort_limit_nm", self.effort_limit_nm, bounds::EFFORT)?,
             speed_limit: positive("speed_limit_rad_s", self.speed_limit_rad_s, bounds::SPEED)?,
-            servo_gain: positive("servo_gain_nms", self.servo_gain_nms, bounds::GAIN)?,
-        })
+            servo_stiffness: positive(
+                "servo_stiffness_nm_rad",
+                self.servo_stiffness_nm_rad,
+                bounds::STIFFNESS,
+            )?,
+        };
+        let speed = at.key("speed_limit_rad_s");
+        check_speed(&joint).map_err(|too_fast| speed.violation(too_fast))?;
+        Ok(joint)
     }
 }
 

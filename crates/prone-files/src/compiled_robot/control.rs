@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use serde::{Deserialize, Serialize};
 
 use prone::robot::{
-    Control, Imu, Robot, SearchSetup, SensorNoise, ServoLaw, SteeringGains, StudySetup, bounds,
+    Control, Imu, Robot, SearchSetup, SensorNoise, SteeringGains, StudySetup, bounds,
 };
 
 use super::bodies::{PoseDocument, ends};
@@ -47,9 +47,7 @@ struct NoiseDocument {
 #[serde(deny_unknown_fields)]
 pub(super) struct ControlDocument {
     command_step_s: f64,
-    servo_rate_per_s: f64,
-    servo_speed_rad_s: f64,
-    stiff_servo_gain_nms: f64,
+    gear_efficiency: f64,
     steering: SteeringDocument,
     uphill_rad: f64,
 }
@@ -148,9 +146,7 @@ impl ControlDocument {
     pub(super) const fn new(control: &Control) -> Self {
         Self {
             command_step_s: control.command_step,
-            servo_rate_per_s: control.servo.rate,
-            servo_speed_rad_s: control.servo.speed,
-            stiff_servo_gain_nms: control.stiff_servo_gain,
+            gear_efficiency: control.gear_efficiency,
             steering: SteeringDocument {
                 yaw: control.steering.yaw,
                 lateral_rad_m: control.steering.lateral,
@@ -166,19 +162,7 @@ impl ControlDocument {
         let gain = |key, value| place.key(key).within(value, 0.0..=bounds::STEERING);
         Ok(Control {
             command_step: positive("command_step_s", self.command_step_s, bounds::COMMAND_STEP)?,
-            servo: ServoLaw {
-                rate: positive(
-                    "servo_rate_per_s",
-                    self.servo_rate_per_s,
-                    bounds::SERVO_RATE,
-                )?,
-                speed: positive("servo_speed_rad_s", self.servo_speed_rad_s, bounds::SPEED)?,
-            },
-            stiff_servo_gain: positive(
-                "stiff_servo_gain_nms",
-                self.stiff_servo_gain_nms,
-                bounds::GAIN,
-            )?,
+            gear_efficiency: positive("gear_efficiency", self.gear_efficiency, 1.0)?,
             steering: SteeringGains {
                 yaw: gain("yaw", steering.yaw)?,
                 lateral: gain("lateral_rad_m", steering.lateral_rad_m)?,

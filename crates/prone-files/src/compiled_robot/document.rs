@@ -6,6 +6,8 @@
 //! gives it back by `read`. Both name all fields, so that one that the domain gains does not compile
 //! until it is read, and written.
 
+use std::collections::BTreeSet;
+
 use serde::{Deserialize, Serialize};
 
 use prone::mapping;
@@ -14,7 +16,7 @@ use prone::robot::{Body, ContactGroup, JointAngles, JointId, Robot, check_limbs}
 use super::bodies::{BodyDocument, JointDocument, ShapeDocument, check_moved};
 use super::chain::ChainDocument;
 use super::control::{ControlDocument, ImuDocument, SearchDocument, StudyDocument};
-use super::names::{self, Names};
+use super::names::{self, Names, joint_name};
 use super::place::{Place, Violation, optional};
 
 /// More bodies, and so more joints, than any robot has.
@@ -36,6 +38,8 @@ pub struct RobotDocument {
     standing_height_m: Option<f64>,
     pub(super) bodies: Vec<BodyDocument>,
     pub(super) joints: Vec<JointDocument>,
+    /// Joints that one motor turns together, by name.
+    shared_motors: Vec<Vec<String>>,
     pub(super) shapes: Vec<ShapeDocument>,
     pub(super) chain: ChainDocument,
     postures: Vec<PostureDocument>,
@@ -78,6 +82,11 @@ impl RobotDocument {
                 .iter()
                 .map(|joint| JointDocument::new(robot, joint))
                 .collect(),
+            shared_motors: robot
+                .shared_motors
+                .iter()
+                .map(|them| them.iter().map(|id| joint_name(robot, *id)).collect())
+                .collect(),
             shapes: shapes
                 .iter()
                 .map(|shape| ShapeDocument::new(robot, shape))
@@ -113,6 +122,7 @@ impl RobotDocument {
             standing_height: optional(self.standing_height_m, |metres| height.length(metres))?,
             bodies: bodies.each(&self.bodies, |at, index, body| body.read(at, index, &names))?,
             joints: joints.each(&self.joints, |at, _, joint| joint.read(at, &names))?,
+            shared_motors: self.shared_motors(at.key("shared_motors"), &names)?,
             shapes: shapes.each(&self.shapes, |at, _, shape| shape.read(at, &names))?,
             chain: self.chain.read(at.key("chain"), &names)?,
             postures: postures
@@ -128,6 +138,29 @@ impl RobotDocument {
         check_moved(at, &robot)?;
         check_whole(at, &robot)?;
         Ok(robot)
+    }
+}
+
+impl RobotDocument {
+    /// Joints that share a motor, each in one list.
+    fn shared_motors(
+        &self,
+        at: Place<'_>,
+        names: &Names<'_>,
+    ) -> Result<Vec<Vec<JointId>>, Violation> {
+        let mut seen = BTreeSet::new();
+        at.each(&self.shared_motors, |at, _, joints| {
+            if joints.len() < 2 {
+                return Err(at.violation("a motor is shared by two joints or more"));
+            }
+            at.each(joints, |at, _, name| {
+                let joint = names.joint(at, name)?;
+                if !seen.insert(joint) {
+                    return Err(at.violation(format!("{name:?} is there twice")));
+                }
+                Ok(joint)
+            })
+        })
     }
 }
 
@@ -157,6 +190,22 @@ fn check_whole(at: Place<'_>, robot: &Robot) -> Result<(), Violation> {
     let is_toe = |body: &Body| body.contact_group == ContactGroup::Toe;
     if !robot.bodies.iter().any(is_toe) {
         return Err(bodies.violation("no contact_group is toe"));
+    }
+    for drive in robot.drives() {
+        let motor = |id: &JointId| {
+            let joint = &robot.joints[id.0];
+            let limits = (joint.effort_limit, joint.speed_limit);
+            (limits, joint.servo_stiffness, joint.motor)
+        };
+        if drive
+            .joints
+            .iter()
+            .any(|it| motor(it) != motor(&drive.joints[0]))
+        {
+            let joint = &drive.named_after(robot).name;
+            let message = format!("joints that share the motor of {joint:?} have other figures");
+            return Err(at.key("shared_motors").violation(message));
+        }
     }
     if robot.shapes.is_empty() {
         return Err(at.key("shapes").violation("nothing can touch the floor"));

@@ -58,7 +58,7 @@ impl Place<'_> {
     pub(super) fn each<D, T>(
         &self,
         elements: &[D],
-        read: impl Fn(Place<'_>, usize, &D) -> Result<T, Violation>,
+        mut read: impl FnMut(Place<'_>, usize, &D) -> Result<T, Violation>,
     ) -> Result<Vec<T>, Violation> {
         let elements = elements.iter().enumerate();
         elements

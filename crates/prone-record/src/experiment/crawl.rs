@@ -34,8 +34,13 @@ pub struct CrawlExperiment {
     pub steering: SteeringChoice,
     /// What all durations of the cycle are multiplied by.
     pub time_scale: f64,
-    /// Gains of the servos.
+    /// Rest after each cycle, s: the robot holds the posture from which the next pull begins.
+    #[serde(default)]
+    pub rest_s: f64,
+    /// Stiffness of the servos.
     pub servo: ServoChoice,
+    /// Efficiency of the gears, in place of the robot's.
+    pub gear_efficiency: Option<f64>,
     /// Length of an engine step, s, where it is not the regime's.
     pub time_step_s: Option<f64>,
     /// Largest calibration error of a joint, degrees, each drawn evenly by the seed.
@@ -90,13 +95,15 @@ pub enum SteeringChoice {
     },
 }
 
-/// Which servo gains hold.
+/// How stiff the servos are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ServoChoice {
-    /// The robot's own.
+    /// As the robot's are taken to be.
+    Normal,
+    /// Half as stiff.
     Soft,
-    /// The robot's `stiff_servo_gain_nms` on every joint.
+    /// Four times as stiff.
     Stiff,
 }
 
@@ -123,6 +130,12 @@ impl CrawlExperiment {
     /// Headings, degrees from the first one.
     pub const HEADING_BOUNDS_DEG: (f64, f64) = (-180.0, 180.0);
 
+    /// Efficiencies of gears: from worm gears to none at all.
+    pub const GEAR_EFFICIENCY_BOUNDS: (f64, f64) = (0.05, 1.0);
+
+    /// Rests after a cycle, s.
+    pub const REST_BOUNDS_S: (f64, f64) = (0.0, 600.0);
+
     /// How many cycles a robot has to get past its obstacles.
     pub const MOST_CYCLES: usize = 60;
 
@@ -136,7 +149,9 @@ impl CrawlExperiment {
             ending: Ending::Cycles(Self::CYCLES),
             steering: SteeringChoice::None,
             time_scale: 1.0,
-            servo: ServoChoice::Soft,
+            rest_s: 0.0,
+            servo: ServoChoice::Normal,
+            gear_efficiency: None,
             time_step_s: None,
             joint_offset_deg: None,
             seed: None,

@@ -142,17 +142,22 @@ pub struct CycleRulesChoice {
     pub ceiling_mm: Option<f64>,
     /// Least advance per cycle, mm.
     pub least_advance_mm: Option<f64>,
-    /// Largest torque that a shoulder's servo may demand, N·m.
+    /// Largest torque that the position error of a shoulder may ask for before any limit, N·m.
     pub demanded_shoulder_nm: Option<f64>,
     /// Largest share of the weight on trunk and legs, percent.
     pub body_share_percent: Option<f64>,
     /// Largest heat, s/m, or the share of that of another cycle.
     pub most_heat: Option<f64>,
+    /// Largest mean force on the head over 20 ms, N.
+    pub most_head_n: Option<f64>,
 }
 
 impl CycleRulesChoice {
     /// Heights and advances, mm: from one that can be measured to one that is none.
     pub const LENGTHS_MM: (f64, f64) = (1.0, 1e4);
+
+    /// Forces on the head, N: from what a simulation has by rounding to more than a robot weighs.
+    pub const HEAD_N: (f64, f64) = (0.01, 1e4);
 
     /// Torques and heats.
     pub const EFFORTS: (f64, f64) = (0.01, 1e3);
@@ -176,6 +181,7 @@ impl CycleRulesChoice {
                 (0.0, 100.0),
             ),
             ("a heat", "", self.most_heat, efforts),
+            ("a force on the head", " N", self.most_head_n, Self::HEAD_N),
         ];
         let asked = |(what, unit, value, bounds): (_, _, Option<f64>, _)| {
             value.map_or(Ok(()), |value| Limit::check(what, unit, value, bounds))

@@ -32,8 +32,8 @@ pub enum SettingKind {
     FineSteps,
     /// Stiffer servos.
     StiffServos,
-    /// Servos that command more speed.
-    BriskServos,
+    /// Softer servos.
+    SoftServos,
     /// Another duration of the pull, s.
     PullOf(f64),
 }
@@ -52,7 +52,7 @@ impl fmt::Display for SettingKind {
             Self::TimeScale(scale) => write!(f, "time scale {scale}"),
             Self::FineSteps => f.write_str("1 ms steps"),
             Self::StiffServos => f.write_str("stiff servos"),
-            Self::BriskServos => f.write_str("brisk servos"),
+            Self::SoftServos => f.write_str("soft servos"),
             Self::PullOf(seconds) => write!(f, "pull of {seconds} s"),
         }
     }
@@ -75,7 +75,7 @@ impl TryFrom<String> for SettingKind {
             Self::Turning,
             Self::FineSteps,
             Self::StiffServos,
-            Self::BriskServos,
+            Self::SoftServos,
         ];
         let plain = plain.into_iter().find(|kind| kind.to_string() == name);
         let kind = plain.or_else(|| with_numbers(&name));
@@ -120,7 +120,7 @@ mod tests {
             SettingKind::TimeScale(1.7),
             SettingKind::FineSteps,
             SettingKind::StiffServos,
-            SettingKind::BriskServos,
+            SettingKind::SoftServos,
             SettingKind::PullOf(3.0),
         ] {
             assert_eq!(SettingKind::try_from(kind.to_string()), Ok(kind));

@@ -14,7 +14,7 @@ impl Recorded {
         sentences.extend(self.gaps("the pose of the root", posed));
         sentences.extend(self.unrecorded_joints("the angle", |row| row.angles.as_slice()));
         sentences.extend(self.unrecorded_joints("the command", |row| row.command.as_slice()));
-        sentences.extend(self.unrecorded_joints("the torque", |row| &row.actuator_torque_nm));
+        sentences.extend(self.unrecorded_joints("the torque", |row| &row.motor_torque_nm));
         let carried = |row: &RecordedRow| row.ground_n.iter().all(|force| !force.is_nan());
         sentences.extend(self.gaps("the ground's force on every part", carried));
         if !self.run.record.has(Part::Contacts) {

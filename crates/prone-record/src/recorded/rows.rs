@@ -5,7 +5,7 @@ use std::path::Path;
 use glam::{DQuat, DVec3};
 
 use prone::frames::{Ground, Root, Transform};
-use prone::robot::JointAngles;
+use prone::robot::{ContactGroup, JointAngles};
 
 use super::table::{Cells, Table, same_instant};
 use super::{Cut, Damage, ReadError, RecordedRow};
@@ -38,7 +38,7 @@ struct Places {
     contacts: Option<usize>,
     /// x, y, z; w, x, y, z of the root's quaternion.
     root: Option<[usize; 7]>,
-    ground: [Option<usize>; 4],
+    ground: [Option<usize>; ContactGroup::COUNT],
     commands: Vec<Option<usize>>,
     angles: Vec<Option<usize>>,
     torques: Vec<Option<usize>>,
@@ -88,7 +88,7 @@ impl Places {
         };
         let torques = self.torques.iter().map(|&at| cells.recorded(at));
         let torques: Vec<f64> = torques.collect::<Result<_, Damage>>()?;
-        let mut ground_n = [f64::NAN; 4];
+        let mut ground_n = [f64::NAN; ContactGroup::COUNT];
         for (force, column) in ground_n.iter_mut().zip(self.ground) {
             *force = cells.recorded(column)?;
         }
@@ -99,7 +99,7 @@ impl Places {
             ground_from_root: self.pose(cells)?,
             command: posture(&self.commands)?,
             angles: posture(&self.angles)?,
-            actuator_torque_nm: torques,
+            motor_torque_nm: torques,
             ground_n,
         })
     }
@@ -183,7 +183,7 @@ impl Rows {
             }
             let row = places.row(cells)?;
             let stage = places.stage(cells)?;
-            check_time(row.time_s, extent.row_step_s, index, found.instants.last())?;
+            check_time(row.time_s, extent, index, found.instants.last())?;
             let values: Vec<Option<f64>> = numbers
                 .iter()
                 .map(|&(column, _)| cells.optional(column))
@@ -221,17 +221,19 @@ impl Rows {
 }
 
 /// Checks that a row is the one that is due, or follows the one before where rows have no fixed
-/// step.
+/// step. The last one may come early, as it ends with the record.
 fn check_time(
     found: f64,
-    row_step_s: Option<f64>,
+    extent: &Extent,
     index: usize,
     before: Option<&RecordedRow>,
 ) -> Result<(), Damage> {
-    match (row_step_s, before) {
+    match (extent.row_step_s, before) {
         (Some(step), _) => {
             let due = (index + 1) as f64 * step;
-            if same_instant(found, due) {
+            let is_last = index + 1 == extent.rows;
+            let early = is_last && found < due && found > due - step;
+            if same_instant(found, due) || early {
                 Ok(())
             } else {
                 Err(Damage::Time { found, due })

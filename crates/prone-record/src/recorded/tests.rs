@@ -563,7 +563,7 @@ fn what_was_not_recorded_is_nan_and_no_damage() {
         ]
     );
     let row = &record.rows[1];
-    assert!(row.actuator_torque_nm[0].is_nan() && row.command.as_slice()[0].is_nan());
+    assert!(row.motor_torque_nm[0].is_nan() && row.command.as_slice()[0].is_nan());
     assert!(row.ground_n.iter().all(|force| force.is_nan()));
     assert_eq!((row.ground_from_root, row.cycle), (None, 1));
     assert!(record.has_all_angles());

@@ -56,7 +56,7 @@ pub fn archive(record: &Recorded) -> Result<Vec<u8>, ArchiveError> {
         ("command_rad", per_joint(&|row| row.command.as_slice())),
         ("position_rad", per_joint(&|row| row.angles.as_slice())),
         ("velocity_rad_s", numbers(&[instants, joints], speeds)),
-        ("effort_nm", per_joint(&|row| &row.actuator_torque_nm)),
+        ("effort_nm", per_joint(&|row| &row.motor_torque_nm)),
         ("root_position_m", numbers(&[instants, 3], positions)),
         ("root_quaternion_wxyz", numbers(&[instants, 4], turns)),
         (

@@ -87,7 +87,7 @@ pub fn log(record: &Recorded) -> Result<Vec<u8>, McapError> {
     let tf = log.schema("tf2_msgs/msg/TFMessage", &tf)?;
     let states = log.channel(joint_state, "/joint_states")?;
     let angles = known(record, |row| row.angles.as_slice());
-    let torques = known(record, |row| &row.actuator_torque_nm);
+    let torques = known(record, |row| &row.motor_torque_nm);
     let commands = known(record, |row| row.command.as_slice());
     let commands = commands.map(|_| log.channel(joint_state, "/joint_commands"));
     let commands = commands.transpose()?;

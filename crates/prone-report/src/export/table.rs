@@ -17,7 +17,7 @@ pub fn csv(record: &Recorded) -> Result<Vec<u8>, csv::Error> {
                 recorded(row.command.as_slice()[index], 6),
                 recorded(row.angles.as_slice()[index], 6),
                 recorded(speeds[index], 4),
-                recorded(row.actuator_torque_nm[index], 5),
+                recorded(row.motor_torque_nm[index], 5),
             ]
         })
     });

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::Run;
 use crate::view::record::not_simulated;
-use prone_record::crawl_summary::JointSummary;
+use prone_record::crawl_summary::{MotorSummary, ReasonSummary};
 
 /// A joint with a smaller share of the heat is not listed by itself.
 const LISTED_HEAT: f64 = 0.01;
@@ -55,8 +55,20 @@ pub struct Card {
     pub cost_of_transport_mechanical: Option<f64>,
     /// With the estimated loss of the windings.
     pub cost_of_transport_electrical_estimated: Option<f64>,
-    /// ∫ Σ (τ / nominal torque)² dt over time: the mean number of motors at their continuous rating.
-    pub heat_mean: f64,
+    /// What the motors of a robot could do of it: `continuous`, `limited`, `not on a robot`; nothing
+    /// where the figures of a motor are not known.
+    pub verdict: Option<String>,
+    /// What speaks against going on for ever.
+    pub verdict_reasons: Vec<String>,
+    /// Largest mean force on the head over 20 ms, N.
+    pub head_peak_n: f64,
+    /// Share of the time in which the head carries weight.
+    pub head_share: f64,
+    /// Largest mean force on the hands over 20 ms, N.
+    pub hand_peak_n: f64,
+    /// ∫ Σ (τ / nominal torque)² dt over time: the mean number of motors at their continuous rating;
+    /// nothing where the figures of a motor are not known.
+    pub heat_per_second: Option<f64>,
     /// The same integral per metre, s/m.
     pub heat_per_metre_s: Option<f64>,
     /// Off the line per metre, mm, positive to the left.
@@ -75,7 +87,7 @@ pub struct Card {
     pub(super) not_simulated: Option<String>,
 }
 
-/// One joint. Torque is actuator torque, after the effort limit.
+/// One motor, by the joint that it is named after. Torque is applied torque.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct JointCard {
     /// The manufacturer's name.
@@ -88,9 +100,11 @@ pub struct JointCard {
     pub rms_nm: f64,
     /// Peak over nominal.
     pub peak_over_nominal: f64,
-    /// RMS over nominal; its square is what the winding warms by, 1 for ever at the rating.
+    /// RMS over what the gear passes on of the nominal torque; 1 for ever at the rating.
     pub rms_over_nominal: f64,
-    /// Share of the time in which the servo asked for more than the effort limit.
+    /// Share of the time in which the supply's voltage is less than what the controller asks for.
+    pub voltage_clipped_share: f64,
+    /// Share of the time at the current limit.
     pub saturated_share: f64,
     /// Its share of ∫ Σ (τ / nominal torque)² dt.
     pub heat_share: f64,
@@ -112,7 +126,8 @@ impl Card {
         let (highest_part, highest_mm) = summary.top_mm.highest_part();
         let metres = Some(summary.path_mm / 1e3).filter(|metres| *metres > 0.0);
         let straight = summary.yaw_deg.abs() < STRAIGHT_DEG;
-        let (joints, other_joints_heat_share) = joints(&summary.joints, summary.heat_s);
+        let (joints, other_joints_heat_share) =
+            joints(&summary.joints, summary.heat_s.unwrap_or(0.0));
         Some(Self {
             run: run.folder.name.clone(),
             gait: summary.gait.clone(),
@@ -138,7 +153,12 @@ impl Card {
             plate_contacts: summary.plate_contacts,
             cost_of_transport_mechanical: summary.cost_of_transport,
             cost_of_transport_electrical_estimated: summary.electrical_cost_of_transport,
-            heat_mean: summary.heat_s / summary.time_s,
+            verdict: summary.verdict.duty.clone(),
+            verdict_reasons: summary.verdict.reasons.iter().map(in_words).collect(),
+            head_peak_n: summary.ground.head.peak_n,
+            head_share: summary.ground.head.share_of_time,
+            hand_peak_n: summary.ground.hand.peak_n,
+            heat_per_second: summary.heat_per_second,
             heat_per_metre_s: summary.heat_per_metre_s,
             drift_mm_per_m: metres
                 .filter(|_| straight)
@@ -155,17 +175,31 @@ impl Card {
 /// Up to which change of heading what lies beside the line of the start is drift, degrees.
 const STRAIGHT_DEG: f64 = 20.0;
 
+/// A reason of a verdict as a sentence without its end.
+fn in_words(reason: &ReasonSummary) -> String {
+    let joint = reason.joint.as_deref().map(|joint| format!(" ({joint})"));
+    format!(
+        "{} {:.2}{}, more than {}",
+        reason.measure,
+        reason.value,
+        joint.unwrap_or_default(),
+        reason.continuous
+    )
+}
+
 /// The warm ones, and the share of the others.
-fn joints(summaries: &[JointSummary], heat_s: f64) -> (Vec<JointCard>, f64) {
-    let card = |joint: &JointSummary| {
+fn joints(summaries: &[MotorSummary], heat_s: f64) -> (Vec<JointCard>, f64) {
+    let card = |joint: &MotorSummary| {
         let (nominal_nm, heat) = joint.nominal_nm.zip(joint.heat_s)?;
+        let rms_over_nominal = joint.rms_over_nominal?;
         Some(JointCard {
             joint: joint.joint.clone(),
             nominal_nm,
             peak_nm: joint.peak_nm,
             rms_nm: joint.rms_nm,
             peak_over_nominal: joint.peak_nm / nominal_nm,
-            rms_over_nominal: joint.rms_nm / nominal_nm,
+            rms_over_nominal,
+            voltage_clipped_share: joint.voltage_clipped_share,
             saturated_share: joint.saturated_share,
             heat_share: if heat_s > 0.0 { heat / heat_s } else { 0.0 },
         })
@@ -182,16 +216,23 @@ fn joints(summaries: &[JointSummary], heat_s: f64) -> (Vec<JointCard>, f64) {
 mod tests {
     use super::*;
 
-    fn joint(name: &str, nominal_nm: Option<f64>, heat_s: Option<f64>) -> JointSummary {
-        JointSummary {
+    fn joint(name: &str, nominal_nm: Option<f64>, heat_s: Option<f64>) -> MotorSummary {
+        MotorSummary {
             joint: name.to_owned(),
+            joints: vec![name.to_owned()],
             effort_limit_nm: 3.0,
             nominal_nm,
             peak_nm: 1.0,
             rms_nm: 0.5,
+            rms_over_nominal: nominal_nm.map(|nominal| 0.5 / (0.6 * nominal)),
             demanded_peak_nm: 1.0,
+            largest_lag_deg: 1.0,
+            voltage_clipped_share: 0.0,
             saturated_share: 0.0,
+            planned_speed_over_no_load: None,
             heat_s,
+            heat_per_second: heat_s,
+            heat_per_metre_s: heat_s,
             work_j: 0.0,
             winding_loss_j: None,
         }

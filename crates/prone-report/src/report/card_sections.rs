@@ -2,6 +2,8 @@
 
 use maud::{Markup, html};
 
+use prone::motor::HEAD_CARRIES;
+
 use super::card::Card;
 use super::html_table::{optional, percent};
 use super::publication::Publication;
@@ -26,7 +28,7 @@ pub(super) fn all(cards: &[Card], publication: &dyn Publication) -> Markup {
 /// A line of the table: what it says, and its value for a card.
 type Line = (&'static str, fn(&Card) -> String);
 
-const LINES: [Line; 15] = [
+const LINES: [Line; 19] = [
     ("path, time", |card| {
         let (path, time, cycles) = (card.path_mm, card.time_s, card.cycles);
         format!("{path:.0} mm, {time:.1} s, {cycles} cycles")
@@ -61,8 +63,23 @@ const LINES: [Line; 15] = [
         let estimated = card.cost_of_transport_electrical_estimated;
         optional(estimated, |value| format!("at least {value:.1}"))
     }),
+    ("head carries weight", |card| {
+        if card.head_peak_n < HEAD_CARRIES {
+            "never".to_owned()
+        } else {
+            let share = percent(card.head_share);
+            format!("{share} of the time, up to {:.0} N", card.head_peak_n)
+        }
+    }),
+    ("hands carry up to", |card| {
+        format!("{:.0} N", card.hand_peak_n)
+    }),
+    ("on a robot's motors", |card| {
+        card.verdict.clone().unwrap_or_else(|| "unknown".to_owned())
+    }),
+    ("because", |card| card.verdict_reasons.join("; ")),
     ("heat of all motors per second", |card| {
-        format!("{:.2}", card.heat_mean)
+        optional(card.heat_per_second, |value| format!("{value:.2}"))
     }),
     ("heat per metre", |card| {
         optional(card.heat_per_metre_s, |value| format!("{value:.0} s/m"))
@@ -117,8 +134,10 @@ fn figures(cards: &[Card]) -> Markup {
                  lose, τ² ω₀ / τ_stall from the manufacturer's motor figures, "
                 strong { "an estimate" }
                 " and a lower bound: gears and drives lose nothing in it, and braking gives nothing back. Heat: \
-                 Σ (τ / nominal torque)² over all motors, τ actuator torque; 1 is one motor at its \
-                 continuous rating. No thermal model of the motors is in the robot's data, so no \
+                 Σ (τ / nominal torque)² over all motors, τ the torque applied; 1 is one motor at its \
+                 continuous rating. On a robot's motors: continuous, limited to minutes, or not at \
+                 all, by the worst motor, an estimate of the gears' efficiency in it. Head: mean force \
+                 over 20 ms. No thermal model of the motors is in the robot's data, so no \
                  temperature is given. Drift and heading: positive to the left"
                 @if simulated { "; a symmetric model without joint errors hides both" }
                 "."
@@ -135,7 +154,7 @@ fn figures(cards: &[Card]) -> Markup {
     }
 }
 
-/// A row per joint that is warm in any crawl, four columns per crawl.
+/// A row per motor that is warm in any crawl, five columns per crawl.
 fn joints(cards: &[Card]) -> Markup {
     let mut rows: Vec<(&str, f64)> = Vec::new();
     for joint in cards.iter().flat_map(|card| &card.joints) {
@@ -147,10 +166,11 @@ fn joints(cards: &[Card]) -> Markup {
         div.scroll { table {
             caption {
                 strong { "Motors." }
-                " Actuator torque after the effort limit, over the motor's continuous torque at the \
-                 joint, lossless gears (real ones ask more of the motor): largest, and root mean square, whose square is the heat of \
-                 a winding in units of its rating. Heat: share of all motors'. At the limit: share of the \
-                 time in which the servo asked for more than the manufacturer's effort limit. "
+                " Torque applied. Peak: the largest over the motor's continuous torque at the joint, \
+                 before gear losses. RMS: root mean square over what the gear passes on of that torque, \
+                 an estimate; 1 can go on for ever. Heat: share of all motors'. Voltage and limit: share \
+                 of the time in which the supply's voltage, or the current limit, cuts what the \
+                 controller asks for. "
                 @if all_simulated(cards) { "Ours, simulated; the" } @else { "The" }
                 " warmest of the first crawl first; – is less than 1 % of the heat."
             }
@@ -158,9 +178,9 @@ fn joints(cards: &[Card]) -> Markup {
                 tr {
                     th scope="col" rowspan="2" { "joint" }
                     th scope="col" rowspan="2" { "nominal" }
-                    @for card in cards { th scope="colgroup" colspan="4" { (card.gait) br; small.run { (card.run) } } }
+                    @for card in cards { th scope="colgroup" colspan="5" { (card.gait) br; small.run { (card.run) } } }
                 }
-                tr { @for _ in cards { @for head in ["peak", "RMS", "limit", "heat"] { th scope="col" { (head) } } } }
+                tr { @for _ in cards { @for head in ["peak", "RMS", "voltage", "limit", "heat"] { th scope="col" { (head) } } } }
             }
             tbody {
                 @for (name, nominal_nm) in &rows { tr {
@@ -171,10 +191,11 @@ fn joints(cards: &[Card]) -> Markup {
                             Some(joint) => {
                                 td { (format!("{:.2}", joint.peak_over_nominal)) }
                                 td { (format!("{:.2}", joint.rms_over_nominal)) }
+                                td { (percent(joint.voltage_clipped_share)) }
                                 td { (percent(joint.saturated_share)) }
                                 td { (percent(joint.heat_share)) }
                             }
-                            None => { @for _ in 0..4 { td { "–" } } }
+                            None => { @for _ in 0..5 { td { "–" } } }
                         }
                     }
                 } }
@@ -182,7 +203,7 @@ fn joints(cards: &[Card]) -> Markup {
                     th scope="row" { "all others" }
                     td {}
                     @for card in cards {
-                        td {} td {} td {}
+                        td {} td {} td {} td {}
                         td { (percent(card.other_joints_heat_share)) }
                     }
                 }

@@ -1,19 +1,19 @@
 //! What is measured in a crawl.
 
 use prone::crawl::Stage;
-use prone::frames::{Ground, Root, Transform};
+use prone::frames::{Ground as GroundFrame, Root, Transform};
 use prone::gait::cycle::CheckedCycle;
-use prone::robot::{BodyPart, JointAngles, Tops};
+use prone::motor::{Effort, HEAD_CARRIES};
+use prone::robot::{BodyPart, ContactGroup, Drive, JointAngles, Tops};
+use prone::scene::ContactForce;
 use prone::steering::Bearing;
 
-use super::effort::{Effort, MotorStep};
 use super::touch::Touches;
 use super::{Crawl, Detail, ROW_STEP};
 use crate::driven::SimulatedRobot;
-use crate::simulation::Simulation;
-use prone::scene::ContactForce;
+use crate::simulation::{ContactSums, Keep, Simulation};
 
-/// One instant of a crawl.
+/// A row of a crawl: the time since the row before, and the instant at its end.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
     /// Since the first pull began, s.
@@ -26,16 +26,29 @@ pub struct Row {
     pub command: JointAngles,
     /// Joint angles, rad.
     pub angles: JointAngles,
-    /// **Actuator torque** of each joint about its axis, mean over the row, N·m.
-    pub actuator_torque: Vec<f64>,
-    /// Normal contact force of the ground by [`prone::robot::ContactGroup::ALL`], mean over the row, N.
-    pub contact: [f64; 4],
-    /// What the world does to the robot now, contact by contact.
+    /// **Applied torque** of each joint's motor about the joint's axis, mean over the row, N·m.
+    pub applied_torque: Vec<f64>,
+    /// What each motor did over the row, by [`prone::robot::Robot::drives`].
+    pub effort: Effort,
+    /// Normal contact force of the ground by [`ContactGroup::ALL`], mean over the row, N.
+    pub contact: [f64; ContactGroup::COUNT],
+    /// What the world does to each body that it touches, mean over the row.
     pub forces: Vec<ContactForce>,
     /// Pose of the root.
-    pub ground_from_root: Transform<Ground, Root>,
+    pub ground_from_root: Transform<GroundFrame, Root>,
     /// Highest points.
     pub tops: Tops,
+}
+
+/// What the ground carried over a time, by [`ContactGroup::ALL`].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Ground {
+    /// ∫ normal force dt, N·s.
+    pub impulse: [f64; ContactGroup::COUNT],
+    /// Largest mean over [`ROW_STEP`], N.
+    pub peak: [f64; ContactGroup::COUNT],
+    /// How long that mean was [`HEAD_CARRIES`] or more, s.
+    pub carried: [f64; ContactGroup::COUNT],
 }
 
 /// One cycle.
@@ -59,6 +72,8 @@ pub struct CycleRow {
     pub tops: Tops,
     /// What the motors did.
     pub effort: Effort,
+    /// What the ground carried.
+    pub ground: Ground,
     /// Share of the ground's force on trunk and legs during the pull.
     pub body_share: f64,
     /// The same during the recovery, in which limbs go back and the body may lie.
@@ -104,16 +119,44 @@ fn wrapped(angle: f64) -> f64 {
     (angle + PI).rem_euclid(TAU) - PI
 }
 
+impl Ground {
+    fn add_row(&mut self, forces: [f64; ContactGroup::COUNT], seconds: f64) {
+        for (group, force) in forces.into_iter().enumerate() {
+            self.impulse[group] += force * seconds;
+            self.peak[group] = self.peak[group].max(force);
+            if force >= HEAD_CARRIES {
+                self.carried[group] += seconds;
+            }
+        }
+    }
+
+    fn add(&mut self, other: &Self) {
+        for group in 0..ContactGroup::COUNT {
+            self.impulse[group] += other.impulse[group];
+            self.peak[group] = self.peak[group].max(other.peak[group]);
+            self.carried[group] += other.carried[group];
+        }
+    }
+
+    /// Largest mean force on the head over [`ROW_STEP`], N.
+    pub const fn head_peak(&self) -> f64 {
+        self.peak[ContactGroup::Head as usize]
+    }
+}
+
 /// Measures while a crawl goes on.
 pub(super) struct Meter {
     /// What is known of the crawl so far.
     crawl: Crawl,
     detail: Detail,
     parts: Vec<BodyPart>,
+    drives: Vec<Drive>,
     begin: Option<f64>,
     cycle: Option<CycleRow>,
     loads: [BodyLoad; 2],
-    means: Means,
+    sums: RowSums,
+    /// What was commanded last.
+    command: Option<JointAngles>,
     touches: Touches,
 }
 
@@ -125,12 +168,16 @@ struct BodyLoad {
 }
 
 impl BodyLoad {
-    fn add(&mut self, [toe, elbow, torso, leg]: [f64; 4]) {
-        self.body += torso + leg;
-        self.all += toe + elbow + torso + leg;
+    fn add(&mut self, forces: [f64; ContactGroup::COUNT]) {
+        for (group, force) in ContactGroup::ALL.into_iter().zip(forces) {
+            self.all += force;
+            if group.is_body() {
+                self.body += force;
+            }
+        }
     }
 
-    /// Share on trunk and legs; 0 where nothing is carried.
+    /// Share on trunk, head and legs; 0 where nothing is carried.
     fn share(self) -> f64 {
         if self.all > 0.0 {
             self.body / self.all
@@ -141,18 +188,23 @@ impl BodyLoad {
 }
 
 /// Sums since the last row.
-struct Means {
+struct RowSums {
     steps: usize,
     torque: Vec<f64>,
-    contact: [f64; 4],
+    contacts: ContactSums,
+    effort: Effort,
+    stage: Stage,
 }
 
-impl Means {
-    fn none(joints: usize) -> Self {
+impl RowSums {
+    fn none(simulation: &Simulation) -> Self {
+        let robot = simulation.robot();
         Self {
             steps: 0,
-            torque: vec![0.0; joints],
-            contact: [0.0; 4],
+            torque: vec![0.0; robot.joints.len()],
+            contacts: ContactSums::default(),
+            effort: Effort::none(robot),
+            stage: Stage::Recovery,
         }
     }
 }
@@ -165,6 +217,7 @@ impl Meter {
                 start: simulation.snapshot(),
                 cycles: Vec::new(),
                 effort: Effort::none(robot),
+                ground: Ground::default(),
                 tops: Tops::NONE,
                 touches: Vec::new(),
                 stopped: Vec::new(),
@@ -176,10 +229,12 @@ impl Meter {
             touches: Touches::new(simulation.world()),
             detail,
             parts: BodyPart::of_shapes(robot),
+            drives: robot.drives(),
             begin: None,
             cycle: None,
             loads: [BodyLoad::default(); 2],
-            means: Means::none(robot.joints.len()),
+            sums: RowSums::none(simulation),
+            command: None,
         }
     }
 
@@ -200,6 +255,7 @@ impl Meter {
             to: from,
             tops: Tops::NONE,
             effort: Effort::none(simulation.robot()),
+            ground: Ground::default(),
             body_share: 0.0,
             recovery_body_share: 0.0,
         });
@@ -219,79 +275,117 @@ impl Meter {
         cycle.to = Bearing::of_prone(&simulation.ground_from_root());
         cycle.seconds = cycle.effort.seconds;
         self.crawl.effort.add(&cycle.effort);
+        self.crawl.ground.add(&cycle.ground);
         self.crawl.tops.raise(&cycle.tops);
         self.crawl.cycles.push(cycle);
     }
 
     /// After each engine step, with what was commanded for it and what that is for.
-    pub(super) fn step(&mut self, simulation: &Simulation, command: (&JointAngles, Stage)) {
+    pub(super) fn step(
+        &mut self,
+        simulation: &Simulation,
+        (command, stage): (&JointAngles, Stage),
+    ) {
+        let speeds = self.planned_speeds(simulation, command);
         let Some(cycle) = &mut self.cycle else {
             return;
         };
         let dt = simulation.time_step();
-        cycle.effort.seconds += dt;
         let since = simulation.time() - self.begin.unwrap_or_default();
         self.touches.step(simulation, since);
-        let joints = simulation.robot().joints.iter();
-        for (index, (effort, joint)) in cycle.effort.joints.iter_mut().zip(joints).enumerate() {
-            let step = MotorStep {
-                torque: simulation.actuator_torque()[index],
-                demanded: simulation.demanded_torque()[index],
-                speed: simulation.joint_speeds()[index],
-                seconds: dt,
-            };
-            effort.add_step(&step, joint);
+        for effort in [&mut cycle.effort, &mut self.sums.effort] {
+            effort.seconds += dt;
+            for (motor, step) in effort.motors.iter_mut().zip(simulation.motor_steps()) {
+                motor.add_step(step, dt);
+            }
+            for (motor, speed) in effort.motors.iter_mut().zip(speeds.iter().flatten()) {
+                motor.planned_speed = motor.planned_speed.max(*speed);
+            }
         }
-        let contact = simulation.ground_contact();
-        self.loads[usize::from(command.1 == Stage::Recovery)].add(contact);
-        self.means.steps += 1;
-        for (sum, torque) in self
-            .means
-            .torque
-            .iter_mut()
-            .zip(simulation.actuator_torque())
-        {
+        self.loads[usize::from(stage == Stage::Recovery)].add(simulation.ground_contact());
+        self.sums.stage = stage;
+        self.sums.steps += 1;
+        for (sum, torque) in self.sums.torque.iter_mut().zip(simulation.applied_torque()) {
             *sum += torque;
         }
-        for (sum, force) in self.means.contact.iter_mut().zip(contact) {
-            *sum += force;
-        }
+        let keep = match self.detail {
+            Detail::Sums => Keep::Ground,
+            Detail::Rows => Keep::EachBody,
+        };
+        self.sums.contacts.add(simulation, keep);
         let steps_per_row = simulation.world().regime().steps_in(ROW_STEP);
         if simulation.steps().is_multiple_of(steps_per_row) {
-            self.row(simulation, command);
+            self.row(simulation);
         }
     }
 
-    fn row(&mut self, simulation: &Simulation, (command, stage): (&JointAngles, Stage)) {
-        let robot = simulation.robot();
-        let means = std::mem::replace(&mut self.means, Means::none(robot.joints.len()));
-        let (Some(cycle), Some(begin)) = (&mut self.cycle, self.begin) else {
+    /// Speed that each motor is asked for where the command has just changed, rad/s.
+    fn planned_speeds(
+        &mut self,
+        simulation: &Simulation,
+        command: &JointAngles,
+    ) -> Option<Vec<f64>> {
+        let before = self.command.replace(command.clone())?;
+        if before == *command {
+            return None;
+        }
+        let between = simulation.robot().control.command_step;
+        let between = between.max(simulation.time_step());
+        let speeds = self.drives.iter().map(|drive| {
+            let joints = drive.joints.iter();
+            let moves = joints.map(|joint| (command[*joint] - before[*joint]).abs());
+            moves.fold(0.0, f64::max) / between
+        });
+        Some(speeds.collect())
+    }
+
+    /// Ends a row, where one has begun.
+    fn row(&mut self, simulation: &Simulation) {
+        if self.sums.steps == 0 {
             return;
-        };
+        }
+        let robot = simulation.robot();
+        let sums = std::mem::replace(&mut self.sums, RowSums::none(simulation));
+        let contact = sums.contacts.ground();
         let poses = simulation.body_poses();
         let tops = Tops::from_poses(robot, &self.parts, &poses);
-        cycle.tops.raise(&tops);
+        let (ground, highest, index) = match &mut self.cycle {
+            Some(cycle) => (&mut cycle.ground, &mut cycle.tops, self.crawl.cycles.len()),
+            // The last row of all ends with the last cycle.
+            None => (
+                &mut self.crawl.ground,
+                &mut self.crawl.tops,
+                self.crawl.cycles.len().saturating_sub(1),
+            ),
+        };
+        ground.add_row(contact, sums.effort.seconds);
+        highest.raise(&tops);
         if self.detail == Detail::Sums {
             return;
         }
-        let mean = |sum: f64| sum / means.steps as f64;
+        let mean = |sum: f64| sum / sums.steps as f64;
         self.crawl.snapshots.push(simulation.snapshot());
         self.crawl.rows.push(Row {
-            time: simulation.time() - begin,
-            cycle: self.crawl.cycles.len(),
-            stage,
-            command: command.clone(),
+            time: simulation.time() - self.begin.unwrap_or_default(),
+            cycle: index,
+            stage: sums.stage,
+            command: self
+                .command
+                .clone()
+                .unwrap_or_else(|| simulation.reference()),
             angles: simulation.joint_angles(),
-            actuator_torque: means.torque.iter().map(|&sum| mean(sum)).collect(),
-            contact: means.contact.map(mean),
-            forces: simulation.contact_forces(),
+            applied_torque: sums.torque.iter().map(|&sum| mean(sum)).collect(),
+            contact,
+            forces: sums.contacts.forces(),
+            effort: sums.effort,
             ground_from_root: simulation.ground_from_root(),
             tops,
         });
     }
 
     /// The record of what `robot` has done, and whether it has `arrived`.
-    pub(super) fn finish(self, robot: &SimulatedRobot, arrived: bool) -> Crawl {
+    pub(super) fn finish(mut self, robot: &SimulatedRobot, arrived: bool) -> Crawl {
+        self.row(robot.simulation());
         Crawl {
             touches: self.touches.finish(),
             stopped: robot.stopped(),

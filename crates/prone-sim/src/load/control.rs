@@ -1,7 +1,7 @@
 //! `[control]` and `[search]` of `robot.toml`: bounds and units.
 
 use prone::robot::bounds;
-use prone::robot::{Control, Range, SearchSetup, ServoLaw, SteeringGains};
+use prone::robot::{Control, Range, SearchSetup, SteeringGains};
 use prone_files::FileError;
 use prone_files::robot_file::{ControlTable, Number, SearchTable};
 
@@ -14,20 +14,10 @@ pub(super) fn read(lookup: &Lookup<'_>, table: &ControlTable) -> Result<Control,
         |place: &Number, what| lookup.within(place, what, *place.get_ref(), bounds::STEERING);
     let longest_ms = bounds::COMMAND_STEP * 1e3;
     let steepest_deg = bounds::SLOPE.to_degrees();
-    let rate = &table.servo_rate_per_s;
-    let speed = &table.servo_speed_rad_s;
     let steering = &table.steering;
     Ok(Control {
         command_step: number(&table.command_step_ms, "command_step_ms", longest_ms)? * 1e-3,
-        servo: ServoLaw {
-            rate: number(rate, "servo_rate_per_s", bounds::SERVO_RATE)?,
-            speed: number(speed, "servo_speed_rad_s", bounds::SPEED)?,
-        },
-        stiff_servo_gain: number(
-            &table.stiff_servo_gain_nms,
-            "stiff_servo_gain_nms",
-            bounds::GAIN,
-        )?,
+        gear_efficiency: number(&table.gear_efficiency, "gear_efficiency", 1.0)?,
         steering: SteeringGains {
             yaw: gain(&steering.yaw, "yaw")?,
             lateral: gain(&steering.lateral_rad_m, "lateral_rad_m")?,
@@ -64,9 +54,7 @@ mod tests {
         let (control, search) = (robot.control, robot.search);
         for (what, value, bits) in [
             ("command step", control.command_step, 0.01_f64),
-            ("rate", control.servo.rate, 20.0),
-            ("speed", control.servo.speed, 3.0),
-            ("stiff gain", control.stiff_servo_gain, 20.0),
+            ("gear efficiency", control.gear_efficiency, 0.6),
             ("yaw", control.steering.yaw, 0.9),
             ("lateral", control.steering.lateral, 3.5),
             ("lateral sum", control.steering.lateral_sum, 0.35),

@@ -17,6 +17,8 @@ pub(super) struct Parts {
     pub(super) joints: Vec<Joint>,
     pub(super) shapes: Vec<Shape>,
     pub(super) sites: BTreeMap<String, Site>,
+    /// Pairs of hinges that an equality keeps at the same angle.
+    pub(super) tied: Vec<[JointId; 2]>,
 }
 
 /// A named place of the robot, and what is measured there.
@@ -44,6 +46,7 @@ pub(super) fn read(model: &MjModel) -> Result<Parts, String> {
         joints,
         shapes: read_shapes(model)?,
         sites: read_sites(model),
+        tied: read_ties(model),
     })
 }
 
@@ -82,7 +85,6 @@ fn read_body(model: &MjModel, index: usize, joint: Option<JointId>) -> Result<Bo
         mass: model.body_mass()[index],
         centre_of_mass: Point::new(DVec3::from_array(model.body_ipos()[index])),
         contact_group: ContactGroup::Torso,
-        is_head: false,
     })
 }
 
@@ -117,7 +119,7 @@ fn read_joint(
         range: Range { lower, upper },
         effort_limit: 0.0,
         speed_limit: 0.0,
-        servo_gain: 0.0,
+        servo_stiffness: 0.0,
         motor: None,
     });
     Ok(Some(id))
@@ -190,6 +192,25 @@ fn read_sites(model: &MjModel) -> BTreeMap<String, Site> {
         sites.insert(name.to_owned(), site);
     }
     sites
+}
+
+/// Equalities that are on and say that one hinge has the angle of another.
+fn read_ties(model: &MjModel) -> Vec<[JointId; 2]> {
+    // The engine's joint 0 is the free one.
+    let hinge = |id: i32| Some(JointId(usize::try_from(id).ok()?.checked_sub(1)?));
+    let same_angle = [0.0, 1.0, 0.0, 0.0, 0.0];
+    let mut ties = Vec::new();
+    for (index, kind) in model.eq_type().iter().enumerate() {
+        let polynomial = &model.eq_data()[index][..same_angle.len()];
+        let is_tie = *kind == MjtEq::mjEQ_JOINT
+            && model.eq_active0()[index]
+            && polynomial == same_angle.as_slice();
+        let pair = hinge(model.eq_obj1id()[index]).zip(hinge(model.eq_obj2id()[index]));
+        if let (true, Some((one, other))) = (is_tie, pair) {
+            ties.push([one, other]);
+        }
+    }
+    ties
 }
 
 fn name(model: &MjModel, kind: MjtObjBase, index: usize, word: &str) -> Result<String, String> {

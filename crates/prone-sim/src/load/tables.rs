@@ -7,9 +7,10 @@ use glam::DVec3;
 
 use prone::chain::ClosedChain;
 use prone::mapping::{self, MappingError};
+use prone::motor::check_speed;
 use prone::robot::{
-    ChainLayout, ContactGroup, FixedArm, Joint, JointAngles, Motor, PublishedChain, Range, Robot,
-    SideLayout, StudySetup, bounds, check_limbs,
+    ChainLayout, ContactGroup, FixedArm, Joint, JointAngles, JointId, Motor, PublishedChain, Range,
+    Robot, SideLayout, StudySetup, bounds, check_limbs,
 };
 use prone_files::FileError;
 use prone_files::robot_file::{
@@ -24,7 +25,7 @@ use super::{control, imu, limbs};
 impl Lookup<'_> {
     pub(super) fn assemble(&self, table: RobotFile, mut parts: Parts) -> Result<Robot, FileError> {
         self.group_bodies(&table.contacts, &mut parts)?;
-        self.equip_joints(&table.drives, &table.motors, &mut parts)?;
+        let shared_motors = self.equip_joints(&table.drives, &table.motors, &mut parts)?;
         let chain = self.chain(&table.chain, &parts)?;
         let study = self.study(&table.study, &table.postures, &parts)?;
         let imu = table.imu.as_ref();
@@ -50,6 +51,7 @@ impl Lookup<'_> {
             postures: self.postures(&table.postures, &parts.joints)?,
             bodies: parts.bodies,
             joints: parts.joints,
+            shared_motors,
             shapes: parts.shapes,
         };
         check_limbs(&robot).map_err(|error| {
@@ -68,6 +70,8 @@ impl Lookup<'_> {
             (ContactGroup::Elbow, &contacts.elbow),
             (ContactGroup::Torso, &contacts.torso),
             (ContactGroup::Leg, &contacts.leg),
+            (ContactGroup::Head, &contacts.head),
+            (ContactGroup::Hand, &contacts.hand),
         ];
         let mut seen = vec![false; parts.bodies.len()];
         for (group, names) in groups {
@@ -79,10 +83,6 @@ impl Lookup<'_> {
                 }
                 parts.bodies[id.0].contact_group = group;
             }
-        }
-        for name in &contacts.head {
-            let id = self.body(name, &parts.bodies)?;
-            parts.bodies[id.0].is_head = true;
         }
         let missing = seen.iter().position(|seen| !seen);
         match (missing, contacts.toe.first()) {
@@ -105,14 +105,19 @@ impl Lookup<'_> {
         }
     }
 
+    /// Gives every joint its drive; returns the joints that share a motor.
     fn equip_joints(
         &self,
         drives: &[DriveTable],
         motors: &BTreeMap<String, MotorTable>,
         parts: &mut Parts,
-    ) -> Result<(), FileError> {
+    ) -> Result<Vec<Vec<JointId>>, FileError> {
         let mut seen = vec![false; parts.joints.len()];
+        let mut shared = Vec::new();
         for drive in drives {
+            if drive.one_motor {
+                shared.extend(self.share_motor(drive, parts)?);
+            }
             for name in &drive.joints {
                 let id = self.joint(name, &parts.joints)?;
                 if std::mem::replace(&mut seen[id.0], true) {
@@ -123,17 +128,53 @@ impl Lookup<'_> {
                 let number = |what, value, largest| self.positive(name, what, value, largest);
                 joint.effort_limit = number("effort_nm", drive.effort_nm, bounds::EFFORT)?;
                 joint.speed_limit = number("speed_rad_s", drive.speed_rad_s, bounds::SPEED)?;
-                joint.servo_gain = number("servo_gain_nms", drive.servo_gain_nms, bounds::GAIN)?;
+                joint.servo_stiffness = number(
+                    "servo_stiffness_nm_rad",
+                    drive.servo_stiffness_nm_rad,
+                    bounds::STIFFNESS,
+                )?;
                 joint.motor = self.motor(drive, motors)?;
+                check_speed(joint).map_err(|too_fast| self.error(name, too_fast))?;
             }
         }
         match seen.iter().position(|seen| !seen) {
-            None => Ok(()),
+            None => Ok(shared),
             Some(index) => Err(self.nowhere(&format!(
                 "joint {} of {} is in no [[drives]]",
                 parts.joints[index].name, self.mjcf
             ))),
         }
+    }
+
+    /// The joints of a drive with one motor, in the model's order; nothing of a single joint.
+    fn share_motor(
+        &self,
+        drive: &DriveTable,
+        parts: &Parts,
+    ) -> Result<Option<Vec<JointId>>, FileError> {
+        let mut joints = Vec::new();
+        for name in &drive.joints {
+            joints.push(self.joint(name, &parts.joints)?);
+        }
+        let Some(first) = joints.first() else {
+            return Ok(None);
+        };
+        let mut moved = vec![*first];
+        while let Some(next) = parts.tied.iter().find_map(|tie| tied_to(&moved, *tie)) {
+            moved.push(next);
+        }
+        let loose = joints.iter().position(|joint| !moved.contains(joint));
+        if let Some(index) = loose {
+            let message = format!(
+                "one_motor: no equality of {} keeps joint {} at the angle of {}",
+                self.mjcf,
+                drive.joints[index].get_ref(),
+                drive.joints[0].get_ref(),
+            );
+            return Err(self.error(&drive.joints[index], message));
+        }
+        joints.sort_unstable();
+        Ok((joints.len() > 1).then_some(joints))
     }
 
     fn motor(
@@ -280,6 +321,15 @@ impl Lookup<'_> {
             postures.insert(posture.clone(), angles);
         }
         Ok(postures)
+    }
+}
+
+/// What a tie adds to joints that move together.
+fn tied_to(moved: &[JointId], [one, other]: [JointId; 2]) -> Option<JointId> {
+    match (moved.contains(&one), moved.contains(&other)) {
+        (true, false) => Some(other),
+        (false, true) => Some(one),
+        _ => None,
     }
 }
 

@@ -1,9 +1,11 @@
 //! What the robot touches.
 
+use std::collections::BTreeMap;
+
 use glam::{DMat3, DVec3};
 
 use prone::frames::Point;
-use prone::robot::BodyId;
+use prone::robot::{BodyId, ContactGroup};
 use prone::scene::ContactForce;
 
 use super::Simulation;
@@ -24,8 +26,8 @@ impl Contact<'_> {
         normal
     }
 
-    /// Force on the robot in the ground frame, N.
-    fn force(&self) -> DVec3 {
+    /// The contact with its force on the robot in the ground frame.
+    fn force(&self) -> ContactForce {
         let data = &self.simulation.data;
         let contact = &data.contact()[self.index];
         let [normal, across, along, ..] = data.contact_force(self.index);
@@ -33,26 +35,104 @@ impl Contact<'_> {
         // second, and the force is that on the second.
         let ground_from_contact = DMat3::from_cols_array(&contact.frame);
         let on_second = ground_from_contact * DVec3::new(normal, across, along);
-        match self.simulation.role(contact.geom[1]) {
-            Some(GeomRole::Robot(_)) => on_second,
-            _ => -on_second,
+        ContactForce {
+            body: self.body,
+            obstacle: match self.with {
+                GeomRole::Obstacle(obstacle) => Some(obstacle),
+                GeomRole::Robot(_) | GeomRole::Floor | GeomRole::Marker => None,
+            },
+            at: Point::new(DVec3::from_array(contact.pos)),
+            force: match self.simulation.role(contact.geom[1]) {
+                Some(GeomRole::Robot(_)) => on_second,
+                _ => -on_second,
+            },
         }
     }
+}
+
+/// Sums of contact forces over engine steps, of which means are made.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct ContactSums {
+    steps: usize,
+    ground: [f64; ContactGroup::COUNT],
+    /// By body and obstacle: sum of forces, sum of places times the forces' sizes, sum of these.
+    met: BTreeMap<(BodyId, Option<usize>), (DVec3, DVec3, f64)>,
+}
+
+impl ContactSums {
+    /// Adds what the ground carries after an engine step, and where `each_body` what every body
+    /// meets.
+    pub(crate) fn add(&mut self, simulation: &Simulation, each_body: Keep) {
+        self.steps += 1;
+        simulation.add_ground(&mut self.ground);
+        if each_body == Keep::Ground {
+            return;
+        }
+        for contact in simulation.contacts() {
+            let ContactForce {
+                body,
+                obstacle,
+                at,
+                force,
+            } = contact.force();
+            let (sum, place, weight) = self.met.entry((body, obstacle)).or_default();
+            let size = force.length();
+            *sum += force;
+            *place += at.metres() * size;
+            *weight += size;
+        }
+    }
+
+    /// Mean normal force of the ground by [`ContactGroup::ALL`], N.
+    pub(crate) fn ground(&self) -> [f64; ContactGroup::COUNT] {
+        self.ground.map(|sum| sum / self.steps as f64)
+    }
+
+    /// Mean force of each body's contact with floor or obstacle, at the mean of its places weighted
+    /// by force.
+    pub(crate) fn forces(&self) -> Vec<ContactForce> {
+        let met = self.met.iter().filter(|(_, (_, _, weight))| *weight > 0.0);
+        let means = met.map(|(&(body, obstacle), &(sum, place, weight))| ContactForce {
+            body,
+            obstacle,
+            at: Point::new(place / weight),
+            force: sum / self.steps as f64,
+        });
+        means.collect()
+    }
+}
+
+/// What is kept of contacts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Keep {
+    /// What the ground carries.
+    Ground,
+    /// What every body meets as well.
+    EachBody,
 }
 
 impl Simulation {
     /// What the world does to the robot after the last step, contact by contact.
     pub fn contact_forces(&self) -> Vec<ContactForce> {
-        let contacts = self.contacts().map(|contact| ContactForce {
-            body: contact.body,
-            obstacle: match contact.with {
-                GeomRole::Obstacle(obstacle) => Some(obstacle),
-                GeomRole::Robot(_) | GeomRole::Floor | GeomRole::Marker => None,
-            },
-            at: Point::new(DVec3::from_array(self.data.contact()[contact.index].pos)),
-            force: contact.force(),
-        });
-        contacts.collect()
+        self.contacts().map(|contact| contact.force()).collect()
+    }
+
+    /// What the ground carries: parts of the robot that press on one another do not count, nor
+    /// does what it bumps into.
+    fn add_ground(&self, sums: &mut [f64; ContactGroup::COUNT]) {
+        for contact in self.contacts() {
+            if self.world.is_ground(contact.with) {
+                let body = &self.robot().bodies[contact.body.0];
+                sums[body.contact_group as usize] += contact.normal();
+            }
+        }
+    }
+
+    /// Normal force of the ground now by [`ContactGroup::ALL`], both sides together, N.
+    pub fn ground_contact(&self) -> [f64; ContactGroup::COUNT] {
+        let mut forces = [0.0; ContactGroup::COUNT];
+        self.add_ground(&mut forces);
+        forces
     }
 
     /// What a geom of a contact is; `None` where the engine has no geom there.

@@ -82,7 +82,7 @@ mod tests {
         // The trunk, the neck and the head.
         assert_eq!(count(MIDDLE), 3);
         for (body, &friction) in robot.bodies.iter().zip(&bodies) {
-            assert!(!body.is_head || is(friction, MIDDLE), "{}", body.name);
+            assert!(!body.is_head() || is(friction, MIDDLE), "{}", body.name);
         }
     }
 }

@@ -46,7 +46,7 @@ pub(super) fn describe(world: &World) -> Value {
                 },
                 "centre_of_mass": body.centre_of_mass.metres().to_array(),
                 "contact_group": body.contact_group.name(),
-                "head": body.is_head,
+                "head": body.is_head(),
             })
         }).collect::<Vec<_>>(),
         "shapes": world.shape_views().into_iter().map(|shape| json!({

@@ -67,9 +67,10 @@ fn instant(row: &Row) -> Option<Instant<'_>> {
         s: Some(shown.s),
         command: &row.command,
         angles: &row.angles,
-        actuator_torque: &row.actuator_torque,
+        applied_torque: &row.applied_torque,
+        effort: Some(&row.effort),
         contact: row.contact,
-        forces: &shown.forces,
+        forces: &row.forces,
         ground_from_root: row.ground_from_root,
         tops: shown.tops,
     })

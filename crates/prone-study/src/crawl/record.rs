@@ -118,6 +118,7 @@ pub fn numbers(
     let mut artefacts = shown(robot, world, &info, start, &instants)?;
     artefacts.insert("summary.json".into(), json(summary)?);
     artefacts.insert("cycles.csv".into(), tables::cycles(summary)?);
+    artefacts.insert("motors.csv".into(), tables::motors(summary)?);
     artefacts.insert(
         "plate-contacts.csv".into(),
         tables::plate_contacts(summary)?,
@@ -156,7 +157,8 @@ fn instant(row: &Row) -> Instant<'_> {
         },
         command: &row.command,
         angles: &row.angles,
-        actuator_torque: &row.actuator_torque,
+        applied_torque: &row.applied_torque,
+        effort: Some(&row.effort),
         contact: row.contact,
         forces: &row.forces,
         ground_from_root: row.ground_from_root,

@@ -2,12 +2,12 @@
 
 use prone::gait::Gait;
 use prone::gait::cycle::Cycle;
-use prone::regime::{Effort, SOLIMP, SOLREF, Servo, Stops};
+use prone::regime::{Effort, SOLIMP, SOLREF, Servo, Stops, VelocityServo};
 use prone::robot::{JointAngles, Robot};
-use prone_sim::{LoadedRobot, World};
+use prone_sim::{LoadedRobot, World, WorldDrive, WorldServo};
 
 use prone_record::head::Head;
-use prone_record::origin::{Origin, RegimeInfo, Simulated};
+use prone_record::origin::{Origin, RegimeInfo, ServoInfo, Simulated};
 use prone_record::program::{Program, RobotInfo};
 use prone_record::record_columns;
 use prone_record::record_info::{Extent, GaitInfo, Options, RecordInfo, SceneInfo};
@@ -100,10 +100,15 @@ fn scene_info(world: &World) -> SceneInfo {
 /// How it was simulated, as the compiled model of the world says.
 fn simulated(world: &World, command_step_s: f64, engine: String) -> Simulated {
     let options = world.engine_options();
-    let servos = || {
-        let names = world.robot().joints.iter().map(|joint| joint.name.clone());
-        names.zip(&options.servos)
-    };
+    let robot = world.robot();
+    let servos = world.drives().iter();
+    let servos = servos.map(|it| {
+        (
+            it.drive.named_after(robot).name.clone(),
+            servo_info(robot, it),
+        )
+    });
+    let joints = robot.joints.iter().map(|joint| joint.name.clone());
     Simulated {
         engine,
         regime: regime_info(world, command_step_s),
@@ -113,10 +118,30 @@ fn simulated(world: &World, command_step_s: f64, engine: String) -> Simulated {
         solver_tolerance: options.tolerance,
         cone: options.cone.to_owned(),
         gravity_m_s2: options.gravity.to_array(),
-        servo_gains_nms_rad: servos().map(|(joint, servo)| (joint, servo.gain)).collect(),
-        effort_limits_nm: servos()
-            .map(|(joint, servo)| (joint, servo.limit))
-            .collect(),
+        servos: servos.collect(),
+        joint_damping_nms_rad: joints.zip(options.joint_damping).collect(),
+    }
+}
+
+fn servo_info(robot: &Robot, WorldDrive { drive, servo }: &WorldDrive) -> ServoInfo {
+    match servo {
+        WorldServo::Motor(motor) => {
+            let joints = drive.joints.iter();
+            ServoInfo::DcMotor {
+                joints: joints.map(|id| robot.joints[id.0].name.clone()).collect(),
+                stiffness_nm_rad: motor.stiffness,
+                supply_torque_nm: motor.supply_torque,
+                current_torque_nm: motor.current_torque,
+                back_emf_nms_rad: motor.back_emf,
+                assumed: motor.assumed,
+            }
+        }
+        WorldServo::Velocity { law, gain, limit } => ServoInfo::Velocity {
+            gain_nms_rad: *gain,
+            rate_per_s: law.rate,
+            speed_rad_s: law.speed,
+            limit_nm: *limit,
+        },
     }
 }
 
@@ -135,12 +160,16 @@ fn regime_info(world: &World, command_step_s: f64) -> RegimeInfo {
             Stops::Study => "the study's",
         }
         .to_owned(),
-        servo_gain: match regime.servo {
-            Servo::Robot => "the robot's".to_owned(),
-            Servo::Uniform(gain) => format!("{gain} N·m·s/rad on every joint"),
+        servo: match regime.servo {
+            Servo::DcMotor(motors) => format!(
+                "DC motors, {} times the robot's stiffness, gear efficiency {}",
+                motors.stiffness,
+                motors.gear_efficiency(&world.robot().control)
+            ),
+            Servo::Velocity(VelocityServo { rate, speed, .. }) => {
+                format!("velocity servos of the recordings, {rate} /s, at most {speed} rad/s")
+            }
         },
-        servo_rate_per_s: world.servo_law().rate,
-        servo_speed_rad_s: world.servo_law().speed,
         time_step_s: regime.time_step,
         command_step_s,
         settle_s: prone_sim::pull::SETTLE,

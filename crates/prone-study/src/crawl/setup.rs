@@ -2,8 +2,8 @@
 
 use prone::crawl::{CrawlerError, Pilot, SlopeAware, Straight};
 use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale, TimeScaleError};
-use prone::regime::{Regime, Servo};
-use prone::robot::{JointAngles, Robot};
+use prone::regime::{MotorServo, Regime};
+use prone::robot::JointAngles;
 use prone::scene::{Obstacle, Scene, SceneError, SideFriction};
 use prone::steering::{HeadingHold, TurnTo};
 use prone_files::{cycle_file, scene_file};
@@ -34,6 +34,8 @@ pub struct CrawlSetup {
     pub scale: TimeScale,
     uphill: Option<GaitSource>,
     imu_seed: Option<u64>,
+    /// Rest after each cycle, s.
+    rest: f64,
     end: End,
     offsets: Option<JointAngles>,
     steering: Steering,
@@ -199,7 +201,7 @@ impl CrawlSetup {
         let uphill = experiment.uphill.as_ref().map(GaitSource::from_text);
         let uphill = uphill.transpose()?;
         let scene = scene(&experiment.scene)?;
-        let world = World::in_scene(&robot, regime(experiment, robot.robot()), &scene)?;
+        let world = World::in_scene(&robot, regime(experiment), &scene)?;
         let scale = TimeScale::new(experiment.time_scale)?;
         let steering = steering(experiment.steering, &gait)?;
         for turn in steering.extremes() {
@@ -229,6 +231,7 @@ impl CrawlSetup {
             most_cycles: Some(most_cycles),
             until_past_mm: past.map(|past| past.x * 1e3),
             time_scale: Some(scale.value()),
+            rest_s: Some(experiment.rest_s),
             steering: Some(steering_name.to_owned()),
             turn_command_deg: Some(turn_command_deg),
             heading_deg,
@@ -242,6 +245,7 @@ impl CrawlSetup {
         };
         Ok(Self {
             imu_seed: uphill.as_ref().and(experiment.seed),
+            rest: experiment.rest_s,
             robot,
             world,
             gait,
@@ -293,7 +297,11 @@ impl CrawlSetup {
 
     /// The cycles between which the pilot chooses.
     fn cycles(&self) -> Vec<Cycle> {
-        self.sources().map(|gait| gait.cycle.clone()).collect()
+        let resting = |gait: &GaitSource| Cycle {
+            rest: self.rest,
+            ..gait.cycle.clone()
+        };
+        self.sources().map(resting).collect()
     }
 
     fn pilot(&self) -> Box<dyn Pilot> {
@@ -374,6 +382,16 @@ fn check(experiment: &CrawlExperiment) -> Result<(), CrawlSetupError> {
     if let Some(seconds) = experiment.time_step_s {
         Limit::check("an engine step", " s", seconds, TIME_STEPS)?;
     }
+    if let Some(efficiency) = experiment.gear_efficiency {
+        let bounds = CrawlExperiment::GEAR_EFFICIENCY_BOUNDS;
+        Limit::check("a gear efficiency", "", efficiency, bounds)?;
+    }
+    Limit::check(
+        "a rest",
+        " s",
+        experiment.rest_s,
+        CrawlExperiment::REST_BOUNDS_S,
+    )?;
     if let Some(degrees) = experiment.joint_offset_deg {
         Limit::check(
             "a calibration error",
@@ -406,17 +424,16 @@ fn check(experiment: &CrawlExperiment) -> Result<(), CrawlSetupError> {
 /// Shortest and longest engine step, s: contacts are too soft for longer ones.
 const TIME_STEPS: (f64, f64) = (1e-4, 0.005);
 
-fn regime(experiment: &CrawlExperiment, robot: &Robot) -> Regime {
-    let regime = match experiment.servo {
-        ServoChoice::Soft => Regime::LOCOMOTION,
-        ServoChoice::Stiff => {
-            let gain = robot.control.stiff_servo_gain;
-            Regime {
-                servo: Servo::Uniform(gain),
-                ..Regime::LOCOMOTION
-            }
-        }
+fn regime(experiment: &CrawlExperiment) -> Regime {
+    let motors = match experiment.servo {
+        ServoChoice::Normal => MotorServo::ROBOT,
+        ServoChoice::Soft => MotorServo::SOFT,
+        ServoChoice::Stiff => MotorServo::STIFF,
     };
+    let regime = Regime::LOCOMOTION.with_motors(MotorServo {
+        gear_efficiency: experiment.gear_efficiency,
+        ..motors
+    });
     experiment.time_step_s.map_or(regime, |time_step| Regime {
         time_step,
         ..regime

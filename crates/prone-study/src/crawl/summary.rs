@@ -1,14 +1,17 @@
 //! A crawl in figures: `summary.json`, and what `prone crawl run` prints.
 
 use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale};
-use prone::robot::Robot;
+use prone::motor::{Effort, Load, Reason, Verdict};
+use prone::regime::Servo;
+use prone::robot::{ContactGroup, Robot};
 use prone::statics::GRAVITY;
-use prone_sim::World;
-use prone_sim::crawl::{Crawl, CycleRow, Effort};
+use prone_sim::crawl::{Crawl, CycleRow, Ground};
+use prone_sim::{World, WorldDrive};
 
 use prone::scene::obstacle_name;
 use prone_record::crawl_summary::{
-    CalibrationStop, CrawlSummary, CycleSummary, JointSummary, PlateContact, SheetClamp, TopsMm,
+    CalibrationStop, CrawlSummary, CycleSummary, GroundSummary, GroupLoad, MotorSummary,
+    PlateContact, ReasonSummary, SheetClamp, TopsMm, VerdictSummary,
 };
 
 /// Reduces a record to figures. `until_past` says whether the crawl was to end past the obstacles.
@@ -25,7 +28,7 @@ pub fn of(
     let robot = world.robot();
     let checked = CheckedCycle::plan(robot, world.stops(), cycle, 0.0, scale)?;
     let stride_mm = stride(&checked) * 1e3;
-    let per_cycle = per_cycle(robot, &crawl.cycles);
+    let per_cycle = per_cycle(world, &crawl.cycles);
     let (distance_mm, lateral_mm) = per_cycle
         .last()
         .map_or((0.0, 0.0), |last| (last.x_mm, last.y_mm));
@@ -36,18 +39,28 @@ pub fn of(
         |of: fn(&CycleSummary) -> f64| per_cycle.iter().map(of).sum::<f64>() / cycles.max(1) as f64;
     let pull_mm_per_cycle = mean(|cycle| cycle.pull_advance_mm);
     let of_stride = |advance_mm: f64| (stride_mm > 0.0).then(|| advance_mm / stride_mm);
-    let (peak, peak_joint) = crawl.effort.peak_over_limit(robot);
-    let (saturated, saturated_joint) = longest_saturated(crawl);
+    let effort = &crawl.effort;
+    let (peak, peak_joint) = effort.peak_over_limit(robot);
     let metres = (path_mm > 0.0).then_some(path_mm / 1e3);
-    let (heat_s, work_j) = (crawl.effort.heat(robot), crawl.effort.work());
+    let gears = Gears::of(world);
+    let joints = motor_summaries(world, gears, effort, metres);
+    let (saturated, saturated_joint) = longest_saturated(&joints);
+    let (heat_s, work_j) = (effort.heat(robot).ok(), effort.work());
     let weight = robot.mass() * GRAVITY;
-    let joints = joint_summaries(robot, &crawl.effort);
-    // Nothing where that of a joint is not known.
+    // Nothing where that of a motor is not known.
     let winding_loss_j: Option<f64> = joints.iter().map(|joint| joint.winding_loss_j).sum();
-    let shoulders = robot.chain.sides().map(|side| side.shoulder);
-    let shoulders = shoulders.map(|joint| crawl.effort.joints[joint.0]);
-    let demanded = shoulders.map(|shoulder| shoulder.demanded_peak);
-    let over = shoulders.map(|shoulder| shoulder.saturated / crawl.effort.seconds);
+    let shoulders = robot
+        .chain
+        .sides()
+        .map(|side| &robot.joints[side.shoulder.0].name);
+    let of_shoulders = |figure: fn(&MotorSummary) -> f64| {
+        let them = joints.iter().filter(|it| shoulders.contains(&&it.joint));
+        them.map(figure).fold(0.0, f64::max)
+    };
+    let (demanded, at_limit) = (
+        of_shoulders(|it| it.demanded_peak_nm),
+        of_shoulders(|it| it.saturated_share),
+    );
     let contacts = crawl.touches.iter().map(|touch| PlateContact {
         body: robot.bodies[touch.body.0].name.clone(),
         obstacle: obstacle_name(world.obstacles(), touch.obstacle),
@@ -86,13 +99,16 @@ pub fn of(
         pull_body_share: mean(|cycle| cycle.body_share),
         recovery_body_share: mean(|cycle| cycle.recovery_body_share),
         peak_torque_over_rated: peak,
-        peak_torque_joint: robot.joints[peak_joint.0].name.clone(),
-        demanded_peak_shoulder_nm: demanded[0].max(demanded[1]),
-        saturated_shoulder_share: over[0].max(over[1]),
+        peak_torque_joint: peak_joint,
+        demanded_peak_shoulder_nm: demanded,
+        saturated_shoulder_share: at_limit,
         saturated_share: saturated,
-        saturated_joint: saturated_joint.map(|joint| robot.joints[joint].name.clone()),
+        saturated_joint,
         heat_s,
-        heat_per_metre_s: metres.map(|metres| heat_s / metres),
+        heat_per_metre_s: heat_s.zip(metres).map(|(heat, metres)| heat / metres),
+        heat_per_second: heat_s.map(|heat| heat / effort.seconds),
+        ground: ground(&crawl.ground, effort.seconds),
+        verdict: verdict(robot, gears, effort, crawl.ground.head_peak()),
         work_j,
         cost_of_transport: metres.map(|metres| work_j / (weight * metres)),
         winding_loss_j,
@@ -108,27 +124,112 @@ pub fn of(
     })
 }
 
-/// What each motor of a robot did, in the order of its joints.
-fn joint_summaries(robot: &Robot, effort: &Effort) -> Vec<JointSummary> {
-    let pairs = robot.joints.iter().zip(&effort.joints);
-    let summaries = pairs.map(|(joint, did)| JointSummary {
-        joint: joint.name.clone(),
-        effort_limit_nm: joint.effort_limit,
-        nominal_nm: joint.motor.map(|motor| motor.nominal),
-        peak_nm: did.peak,
-        rms_nm: (did.square / effort.seconds).sqrt(),
-        demanded_peak_nm: did.demanded_peak,
-        saturated_share: did.saturated / effort.seconds,
-        heat_s: joint
-            .motor
-            .map(|motor| did.square / (motor.nominal * motor.nominal)),
-        work_j: did.work,
-        winding_loss_j: joint
-            .motor
-            .and_then(|motor| motor.winding_loss())
-            .map(|watts_per_square| did.square * watts_per_square),
+/// Efficiency of the gears in a world: what the motors of its regime suppose, or the robot's.
+#[derive(Clone, Copy)]
+struct Gears(f64);
+
+impl Gears {
+    fn of(world: &World) -> Self {
+        let control = &world.robot().control;
+        Self(match world.regime().servo {
+            Servo::DcMotor(motors) => motors.gear_efficiency(control),
+            Servo::Velocity(_) => control.gear_efficiency,
+        })
+    }
+}
+
+/// What each motor of a robot did, in the order of its drives.
+fn motor_summaries(
+    world: &World,
+    Gears(efficiency): Gears,
+    effort: &Effort,
+    metres: Option<f64>,
+) -> Vec<MotorSummary> {
+    let (robot, seconds) = (world.robot(), effort.seconds);
+    let pairs = world.drives().iter().zip(&effort.motors);
+    let summaries = pairs.map(|(WorldDrive { drive, servo }, did)| {
+        let joint = drive.named_after(robot);
+        let used = did.motor_use(robot, drive, seconds, efficiency).ok();
+        let names = drive
+            .joints
+            .iter()
+            .map(|id| robot.joints[id.0].name.clone());
+        MotorSummary {
+            joint: joint.name.clone(),
+            joints: names.collect(),
+            effort_limit_nm: joint.effort_limit,
+            nominal_nm: joint.motor.map(|motor| motor.nominal),
+            peak_nm: did.peak,
+            rms_nm: did.rms(seconds),
+            rms_over_nominal: used.map(|it| it.rms_over_nominal),
+            demanded_peak_nm: servo.stiffness() * did.largest_lag,
+            largest_lag_deg: did.largest_lag.to_degrees(),
+            voltage_clipped_share: did.supply_clipped / seconds,
+            saturated_share: did.current_limited / seconds,
+            planned_speed_over_no_load: used.map(|it| it.planned_over_no_load),
+            heat_s: used.map(|it| it.heat),
+            heat_per_second: used.map(|it| it.heat / seconds),
+            heat_per_metre_s: used.zip(metres).map(|(it, metres)| it.heat / metres),
+            work_j: did.work,
+            winding_loss_j: used.map(|it| it.winding_loss),
+        }
     });
     summaries.collect()
+}
+
+fn ground(carried: &Ground, seconds: f64) -> GroundSummary {
+    let load = |group: ContactGroup| GroupLoad {
+        mean_n: carried.impulse[group as usize] / seconds,
+        peak_n: carried.peak[group as usize],
+        share_of_time: carried.carried[group as usize] / seconds,
+    };
+    GroundSummary {
+        toe: load(ContactGroup::Toe),
+        elbow: load(ContactGroup::Elbow),
+        torso: load(ContactGroup::Torso),
+        leg: load(ContactGroup::Leg),
+        head: load(ContactGroup::Head),
+        hand: load(ContactGroup::Hand),
+    }
+}
+
+fn verdict(
+    robot: &Robot,
+    Gears(gear_efficiency): Gears,
+    effort: &Effort,
+    head: f64,
+) -> VerdictSummary {
+    let load = Load {
+        robot,
+        gear_efficiency,
+        effort,
+        head,
+    };
+    match Verdict::of(&load) {
+        Ok(Verdict { duty, reasons }) => VerdictSummary {
+            duty: Some(duty.name().to_owned()),
+            reasons: reasons.into_iter().map(reason).collect(),
+            unknown: None,
+            gear_efficiency,
+        },
+        Err(error) => VerdictSummary {
+            duty: None,
+            reasons: Vec::new(),
+            unknown: Some(error.to_string()),
+            gear_efficiency,
+        },
+    }
+}
+
+fn reason(reason: Reason) -> ReasonSummary {
+    let (continuous, limited) = reason.measure.bounds();
+    ReasonSummary {
+        measure: reason.measure.name().to_owned(),
+        joint: reason.joint,
+        value: reason.value,
+        continuous,
+        limited,
+    }
 }
 
 /// Advance of the shoulder in the planned chain, m.
@@ -138,18 +239,19 @@ fn stride(checked: &CheckedCycle) -> f64 {
     x(samples.len() - 1) - x(0)
 }
 
-fn longest_saturated(crawl: &Crawl) -> (f64, Option<usize>) {
+/// Longest share of the time at the current limit, and whose it is.
+fn longest_saturated(motors: &[MotorSummary]) -> (f64, Option<String>) {
     let mut most = (0.0, None);
-    for (index, joint) in crawl.effort.joints.iter().enumerate() {
-        let share = joint.saturated / crawl.effort.seconds;
-        if share > most.0 {
-            most = (share, Some(index));
+    for motor in motors {
+        if motor.saturated_share > most.0 {
+            most = (motor.saturated_share, Some(motor.joint.clone()));
         }
     }
     most
 }
 
-fn per_cycle(robot: &Robot, cycles: &[CycleRow]) -> Vec<CycleSummary> {
+fn per_cycle(world: &World, cycles: &[CycleRow]) -> Vec<CycleSummary> {
+    let (robot, gears) = (world.robot(), Gears::of(world));
     let Some(start) = cycles.first().map(|cycle| cycle.from) else {
         return Vec::new();
     };
@@ -169,10 +271,18 @@ fn per_cycle(robot: &Robot, cycles: &[CycleRow]) -> Vec<CycleSummary> {
             x_mm: (cos * dx + sin * dy) * 1e3,
             y_mm: (cos * dy - sin * dx) * 1e3,
             top_mm: TopsMm::from_metres(&row.tops),
-            heat_s: row.effort.heat(robot),
+            heat_s: row.effort.heat(robot).ok(),
             work_j: row.effort.work(),
             body_share: row.body_share,
             recovery_body_share: row.recovery_body_share,
+            ground: ground(&row.ground, row.seconds),
+            verdict: verdict(robot, gears, &row.effort, row.ground.head_peak()),
+            joints: motor_summaries(
+                world,
+                gears,
+                &row.effort,
+                (advance.forward > 0.0).then_some(advance.forward),
+            ),
         }
     });
     rows.collect()

@@ -18,7 +18,7 @@ use prone_sim::World;
 use prone_sim::crawl::CrawlError;
 use prone_sim::pull::{self, Keep, Pull, Start};
 
-use super::cycle_rules::holds;
+use super::cycle_rules::{Bounds, holds};
 use super::pull_trial;
 use super::run::SearchError;
 use super::setting::{Role, Setting};
@@ -64,9 +64,9 @@ fn in_every<S: Sync, G: Sync, R: Send>(
     Ok(gaits.iter().map(of_a_gait).collect())
 }
 
-/// Cycles, each with its ceiling, m, in settings.
+/// Cycles, each with its bounds, in settings.
 pub fn cycles(
-    cycles: &[(Cycle, f64)],
+    cycles: &[(Cycle, Bounds)],
     settings: &[Setting],
     watch: &dyn Watch,
 ) -> Result<Vec<Confirmed>, SearchError> {
@@ -74,15 +74,14 @@ pub fn cycles(
         Ok(try_out(setting, cycle))
     })?;
     let confirmed = cycles.iter().zip(tried);
-    let confirmed =
-        confirmed.map(|((_, ceiling), tried)| confirmed_cycle(settings, tried, *ceiling));
+    let confirmed = confirmed.map(|((_, bounds), tried)| confirmed_cycle(settings, tried, *bounds));
     Ok(confirmed.collect())
 }
 
 fn confirmed_cycle(
     settings: &[Setting],
     tried: Vec<Result<Trial, CrawlError>>,
-    ceiling: f64,
+    bounds: Bounds,
 ) -> Confirmed {
     let mut first = None;
     let mut all_hold = true;
@@ -91,7 +90,7 @@ fn confirmed_cycle(
         match tried {
             Ok(trial) => {
                 let kept = trial.advance / *first.get_or_insert(trial.advance);
-                all_hold &= holds(role, &trial, kept, ceiling);
+                all_hold &= holds(role, &trial, kept, bounds);
                 cycle_row(setting, &trial, kept)
             }
             Err(error) => {
@@ -122,6 +121,7 @@ fn cycle_row(setting: &Setting, trial: &Trial, kept: f64) -> ConfirmedSetting {
         peak_torque_over_rated: Some(trial.peak_over_limit.0),
         peak_joint: Some(trial.peak_over_limit.1.clone()),
         demanded_shoulder_nm: Some(trial.demanded_shoulder),
+        head_n: Some(trial.head),
         kept: Some(kept),
         refused: None,
     }

@@ -16,6 +16,7 @@ use std::sync::Arc;
 use prone::crawl::CrawlerError;
 use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale};
 use prone::gait::{Clamp, LimitsPolicy};
+use prone::motor::UnknownMotor;
 use prone::robot::{JointAngles, JointId, Robot};
 use prone_optim::Interval;
 use prone_record::frontier::CycleObjective;
@@ -95,12 +96,9 @@ pub enum CycleCostError {
         /// In how many settings values count.
         settings: usize,
     },
-    /// No joint of the robot is known to become warm.
-    #[error("no joint of {robot} has a motor in robot.toml, without which there is no heat")]
-    NoMotor {
-        /// The robot's name.
-        robot: String,
-    },
+    /// Nothing is known of the heat of some joint.
+    #[error(transparent)]
+    Motor(#[from] UnknownMotor),
     /// The base cannot be crawled.
     #[error(transparent)]
     Cycle(#[from] CycleError),
@@ -138,10 +136,8 @@ impl CycleCosts {
             }
         }
         let warm = aim.objective == CycleObjective::Heat || aim.rules.heat < f64::INFINITY;
-        if warm && world.robot().joints.iter().all(|it| it.motor.is_none()) {
-            return Err(CycleCostError::NoMotor {
-                robot: world.robot().name.clone(),
-            });
+        if warm {
+            world.robot().check_motors()?;
         }
         let checked = CheckedCycle::plan(world.robot(), world.stops(), base, 0.0, TimeScale::ONE)?;
         Ok(Self {

@@ -5,7 +5,7 @@
 //! ```text
 //! max(v / largest − 1, 0)    height, duration, demanded torque, heat, drift of the heading    (1)
 //! max(1 − v / least, 0)      advance, turn                                                    (2)
-//! max(v − largest, 0)        share of the weight on trunk and legs                            (3)
+//! max(v − largest, 0)        share of the weight on trunk, head and legs, and on the head     (3)
 //! ```
 //!
 //! What is not a number keeps no rule: it breaks it by [`UNTRIED`].
@@ -19,7 +19,8 @@
 //! - A search's least advance is no less than its rules ask, a confirmation asks for a share of what
 //!   the cycle itself comes to in the first setting, and that it advances at all.
 
-use prone::regime::Servo;
+use prone::motor::HEAD_CARRIES;
+use prone::regime::{MotorServo, Servo};
 
 use super::setting::{HOLDS, Role};
 use super::trial::Trial;
@@ -39,22 +40,25 @@ pub struct CycleRules {
     pub body_share: f64,
     /// Largest duration of a cycle, s.
     pub seconds: f64,
-    /// Largest torque that a shoulder's servo demands, N·m, with the robot's own servo gains: a
-    /// servo that is five times as stiff asks for five times as much of the same lag, and no gait
-    /// would be left.
+    /// Largest torque that the position error of a shoulder asks for, N·m, with the robot's own
+    /// stiffness: a servo that is four times as stiff asks for four times as much of the same lag,
+    /// and no gait would be left.
     pub demanded_shoulder: f64,
+    /// Largest mean force on the head over 20 ms, N.
+    pub head: f64,
     /// Largest heat, merged over servos.
     pub heat: f64,
 }
 
 impl CycleRules {
-    /// None but that it advances at all.
+    /// None but that it advances at all, and not on its head.
     pub const FREE: Self = Self {
         ceiling: f64::INFINITY,
         advance: 0.01,
         body_share: 1.0,
         seconds: f64::INFINITY,
         demanded_shoulder: f64::INFINITY,
+        head: HEAD_CARRIES,
         heat: f64::INFINITY,
     };
 
@@ -92,12 +96,13 @@ impl CycleRules {
             ("advance", below(trial.advance, least)),
             ("heading", role.misdirected(trial)),
             ("ceiling", above(trial.top.0, self.ceiling)),
+            ("head", on_the_head(trial, self.head)),
         ];
         if self.body_share < 1.0 && role == Role::Value {
             let excess = number(trial.body_share - self.body_share).max(0.0);
             broken.push(("body-share", excess));
         }
-        if servo == Servo::Robot {
+        if servo == Servo::DcMotor(MotorServo::ROBOT) {
             let excess = above(trial.demanded_shoulder, self.demanded_shoulder);
             broken.push(("demanded-shoulder", excess));
         }
@@ -117,11 +122,38 @@ impl Role {
 }
 
 /// Whether a cycle does in a setting what its role asks of a confirmation: it stays below the ceiling,
-/// m, goes where it should, advances, and keeps its share of the first setting's advance.
-pub fn holds(role: Role, trial: &Trial, kept: f64, ceiling: f64) -> bool {
+/// m, keeps the force on its head to a bound, N, goes where it should, advances, and keeps its share
+/// of the first setting's advance.
+pub fn holds(role: Role, trial: &Trial, kept: f64, Bounds { ceiling, head }: Bounds) -> bool {
     let enough = kept >= role.keep().unwrap_or(HOLDS);
     let directed = role.misdirected(trial) <= 0.0;
-    role == Role::Beside || (trial.top.0 < ceiling && enough && directed && trial.advance > 0.0)
+    let free = trial.top.0 < ceiling && trial.head <= head;
+    role == Role::Beside || (free && enough && directed && trial.advance > 0.0)
+}
+
+/// What a confirmation holds a cycle to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bounds {
+    /// Below which everything stays, m.
+    pub ceiling: f64,
+    /// Largest mean force on the head over 20 ms, N.
+    pub head: f64,
+}
+
+impl Bounds {
+    /// Of a cycle that is only compared with.
+    pub const NONE: Self = Self {
+        ceiling: f64::INFINITY,
+        head: f64::INFINITY,
+    };
+}
+
+/// Equation (3) of the force on the head, over the weight.
+fn on_the_head(trial: &Trial, largest: f64) -> f64 {
+    if trial.head <= largest {
+        return 0.0;
+    }
+    number((trial.head - largest) / trial.weight).max(0.0)
 }
 
 /// Equation (1); what may be infinite is not held.

@@ -15,6 +15,7 @@ use prone_sim::LoadedRobot;
 use super::candidates::{Candidates as _, Depth};
 use super::cycle_cost::CycleSearch;
 use super::cycle_jobs::{self, CycleSearchError};
+use super::cycle_rules::Bounds;
 use super::run::{Job, SearchError, SearchRun, draw};
 use super::setting::Setting;
 use super::steering::check_steering;
@@ -139,7 +140,7 @@ impl CycleRun {
     fn files(
         &self,
         frontier: &Frontier,
-        cycles: &[(Cycle, f64)],
+        cycles: &[(Cycle, Bounds)],
         searches: &[Search],
     ) -> Result<Artefacts, SearchError> {
         let mut artefacts = Artefacts::new();
@@ -191,22 +192,25 @@ impl SearchRun for CycleRun {
         let mut found = Vec::new();
         let mut cycles = Vec::new();
         for (job, search) in self.jobs.iter().zip(searches) {
-            let ceiling = job.ceiling_mm.map_or(f64::INFINITY, |mm| mm * 1e-3);
+            let bounds = Bounds {
+                ceiling: job.ceiling_mm.map_or(f64::INFINITY, |mm| mm * 1e-3),
+                head: job.candidates.rules().head,
+            };
             for run in search.runs() {
                 if watch.stop() {
                     return Err(SearchError::Stopped);
                 }
                 if let Some((cycle, record)) = self.found(job, run)? {
-                    cycles.push((cycle, ceiling));
+                    cycles.push((cycle, bounds));
                     found.push(record);
                 }
             }
         }
         let compared = self.compared.iter();
-        let all: Vec<(Cycle, f64)> = cycles
+        let all: Vec<(Cycle, Bounds)> = cycles
             .iter()
             .cloned()
-            .chain(compared.map(|cycle| (cycle.clone(), f64::INFINITY)))
+            .chain(compared.map(|cycle| (cycle.clone(), Bounds::NONE)))
             .collect();
         let mut confirmed = confirm::cycles(&all, &self.confirmation, watch)?.into_iter();
         for (found, confirmed) in found.iter_mut().zip(confirmed.by_ref()) {

@@ -71,7 +71,7 @@ impl Begun {
 pub(super) fn torques(robot: &Robot, pull: &Pull) -> Vec<[f64; 4]> {
     let joints = robot.chain.right.pitch_joints();
     let rows = pull.rows.iter();
-    rows.map(|row| joints.map(|joint| -row.actuator_torque[joint.0]))
+    rows.map(|row| joints.map(|joint| -row.applied_torque[joint.0]))
         .collect()
 }
 
@@ -102,7 +102,7 @@ pub(super) fn body_share(pull: &Pull) -> f64 {
     for (group, column) in ContactGroup::ALL.into_iter().zip(0..) {
         let sum: f64 = pull.rows.iter().map(|row| row.contact[column]).sum();
         all += sum;
-        if matches!(group, ContactGroup::Torso | ContactGroup::Leg) {
+        if group.is_body() {
             body += sum;
         }
     }

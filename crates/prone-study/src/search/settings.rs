@@ -5,8 +5,7 @@
 
 use prone::gait::cycle::{TimeScale, TimeScaleError};
 use prone::gait::{PhaseDuration, PhaseDurationError};
-use prone::regime::Regime;
-use prone::regime::Servo;
+use prone::regime::{MotorServo, Regime};
 use prone::robot::{JointAngles, Robot};
 use prone::scene::SideFriction;
 use prone_optim::Random;
@@ -94,13 +93,9 @@ fn with_scale(scale: f64) -> Result<SettingSpec, SettingError> {
     })
 }
 
-fn stiff(robot: &LoadedRobot, cycles: usize, role: Role) -> SettingSpec {
-    let gain = robot.robot().control.stiff_servo_gain;
+fn stiff(cycles: usize, role: Role) -> SettingSpec {
     SettingSpec {
-        regime: Regime {
-            servo: Servo::Uniform(gain),
-            ..Regime::LOCOMOTION
-        },
+        regime: Regime::LOCOMOTION.with_motors(MotorServo::STIFF),
         ..plain(SettingKind::StiffServos, cycles, role)
     }
 }
@@ -178,22 +173,20 @@ pub fn offsets(robot: &Robot, largest: f64, seed: u64) -> JointAngles {
     offsets
 }
 
-/// For a search of the heat: the mean over soft and stiff servos, as nobody knows a robot's.
+/// For a search of the heat: the robot's own servos and stiff ones, as nobody knows a robot's.
 pub fn for_heat(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
     compiled(
         robot,
         [
             plain(SettingKind::AsItIs, 2, Role::Value),
-            stiff(robot, 2, Role::Value),
+            stiff(2, Role::Value),
         ],
     )
 }
 
 /// For the confirmation of what such a search found: one thing changed at a time, three cycles each.
-/// Stiff servos stand beside it, and servos that command as much speed as the fastest joint of the
-/// robot has, where the robot's law cuts earlier (the NAO's at 3 rad/s) and limbs lag behind the plan:
-/// no search of the advance looks at them. Heat and peak are confirmed at other durations of the pull
-/// too.
+/// Stiff and soft servos stand beside it: no search of the advance looks at them. Heat and peak are
+/// confirmed at other durations of the pull too.
 pub fn for_confirmation(
     objective: CycleObjective,
     robot: &LoadedRobot,
@@ -205,14 +198,9 @@ pub fn for_confirmation(
         },
         ..plain(SettingKind::FineSteps, 3, Role::Keep(HOLDS))
     };
-    let (joints, law) = (&robot.robot().joints, robot.robot().control.servo);
-    let speeds = joints.iter().map(|joint| joint.speed_limit);
-    let brisk = SettingSpec {
-        regime: Regime {
-            servo_speed: Some(speeds.fold(law.speed, f64::max)),
-            ..Regime::LOCOMOTION
-        },
-        ..plain(SettingKind::BriskServos, 3, Role::Beside)
+    let soft = SettingSpec {
+        regime: Regime::LOCOMOTION.with_motors(MotorServo::SOFT),
+        ..plain(SettingKind::SoftServos, 3, Role::Beside)
     };
     let mut settings = compiled(
         robot,
@@ -223,8 +211,8 @@ pub fn for_confirmation(
             with_scale(FAST)?,
             with_scale(SLOW)?,
             fine,
-            stiff(robot, 3, Role::Beside),
-            brisk,
+            stiff(3, Role::Beside),
+            soft,
         ],
     )?;
     let pulls: &[f64] = match objective {

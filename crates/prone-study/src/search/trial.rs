@@ -2,7 +2,10 @@
 
 use prone::crawl::Straight;
 use prone::gait::cycle::Cycle;
+use prone::motor::Effort;
 use prone::robot::BodyPart;
+use prone::statics::GRAVITY;
+use prone_sim::World;
 use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, Detail, End};
 
 use super::setting::Setting;
@@ -19,14 +22,16 @@ pub struct Trial {
     pub seconds: f64,
     /// Highest point of all cycles, m, and of which part of the body.
     pub top: (f64, BodyPart),
-    /// ∫ Σ (τ / nominal torque)² dt per metre, s/m.
+    /// ∫ Σ (τ / nominal torque)² dt per metre, s/m; NaN where a motor is not known.
     pub heat_per_metre: f64,
     /// Largest torque over the effort limit, and whose.
     pub peak_over_limit: (f64, String),
-    /// Largest torque that a shoulder's servo demands, N·m.
+    /// Largest torque that the position error of a shoulder's pitch asks for before any limit, N·m.
     pub demanded_shoulder: f64,
-    /// Share of the time for which it demands more than the effort limit.
-    pub shoulder_saturated: f64,
+    /// Largest mean force on the head over 20 ms in all cycles, N.
+    pub head: f64,
+    /// Weight of the robot, N.
+    pub weight: f64,
     /// Share of the weight on trunk and legs in the pull.
     pub body_share: f64,
     /// Change of heading, rad.
@@ -64,22 +69,33 @@ fn measured(setting: &Setting, crawl: &Crawl) -> Trial {
         return nothing(setting, crawl);
     };
     let advance = last.advance();
-    let (peak, joint) = last.effort.peak_over_limit(robot);
-    let shoulders = robot.chain.sides().map(|side| side.shoulder);
-    let demanded = shoulders.map(|id| last.effort.joints[id.0].demanded_peak);
-    let saturated = shoulders.map(|id| last.effort.joints[id.0].saturated);
     Trial {
         setting: setting.spec.kind,
         advance: advance.forward,
         seconds: last.seconds,
         top: (crawl.tops.highest(), crawl.tops.part()),
-        heat_per_metre: per_metre(last.effort.heat(robot), advance.forward),
-        peak_over_limit: (peak, robot.joints[joint.0].name.clone()),
-        demanded_shoulder: demanded[0].max(demanded[1]),
-        shoulder_saturated: saturated[0].max(saturated[1]) / last.seconds,
+        heat_per_metre: per_metre(last.effort.heat(robot).unwrap_or(f64::NAN), advance.forward),
+        peak_over_limit: last.effort.peak_over_limit(robot),
+        demanded_shoulder: demanded_of_shoulders(&setting.world, &last.effort),
+        head: crawl.ground.head_peak(),
+        weight: weight(setting),
         body_share: last.body_share,
         yaw: advance.yaw,
     }
+}
+
+fn weight(setting: &Setting) -> f64 {
+    setting.world.robot().mass() * GRAVITY
+}
+
+/// Largest torque that the position errors of the shoulders' pitch ask for before any limit, N·m.
+fn demanded_of_shoulders(world: &World, effort: &Effort) -> f64 {
+    let shoulders = world.robot().chain.sides().map(|side| side.shoulder);
+    let pairs = world.drives().iter().zip(&effort.motors);
+    let of_shoulders =
+        pairs.filter(|(it, _)| it.drive.joints.iter().any(|id| shoulders.contains(id)));
+    let demanded = of_shoulders.map(|(it, did)| it.servo.stiffness() * did.largest_lag);
+    demanded.fold(0.0, f64::max)
 }
 
 /// A cost per metre; of what does not advance, infinite.
@@ -101,7 +117,8 @@ fn nothing(setting: &Setting, crawl: &Crawl) -> Trial {
         heat_per_metre: f64::INFINITY,
         peak_over_limit: (0.0, String::new()),
         demanded_shoulder: 0.0,
-        shoulder_saturated: 0.0,
+        head: 0.0,
+        weight: weight(setting),
         body_share: 0.0,
         yaw: 0.0,
     }

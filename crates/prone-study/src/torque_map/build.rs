@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use prone::chain::GaitParameters;
-use prone::robot::Robot;
+use prone::robot::{ContactGroup, Robot};
 use prone::statics::{Stance, StaticTorques, SupportRule};
 use prone::torque_map::{
     self, ContactForces, GridError, JointTorques, Mask, RecordedMap, Row, TorqueGap, TorqueMap,
@@ -70,10 +70,11 @@ pub fn run(
             let source = StaticTorques::new(robot, mapping, &robot.study_stops(), stance)?;
             let gauge = |at| {
                 let rest = source.rest(at)?;
-                let mut forces = [0.0; 4];
+                let mut forces = [0.0; ContactGroup::COUNT];
                 for support in rest.footing.supports() {
                     forces[support.group as usize] += support.reaction;
                 }
+                let forces = ContactGroup::as_in_the_study(forces);
                 Ok([joints.map(|joint| rest.load(joint)), forces])
             };
             measure(job, gauge, open()?, watch)?
@@ -83,8 +84,8 @@ pub fn run(
             let source = SettledTorques::new(&world, mapping);
             let gauge = |at| {
                 let means = source.settled(at)?.means;
-                let torques = joints.map(|joint| -means.actuator_torque[joint.0]);
-                Ok([torques, means.contact])
+                let torques = joints.map(|joint| -means.applied_torque[joint.0]);
+                Ok([torques, ContactGroup::as_in_the_study(means.contact)])
             };
             measure(job, gauge, open()?, watch)?
         }

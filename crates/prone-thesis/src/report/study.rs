@@ -100,7 +100,7 @@ fn pull(
     let commands = table.columns(joints.map(|joint| format!("{joint}_cmd_rad")))?;
     let angles = table.columns(joints.map(|joint| format!("{joint}_rad")))?;
     let contacts = table.columns(["toe_n", "elbow_n", "torso_n", "leg_n"])?;
-    let [top, head_top] = table.columns(["top_mm", "head_top_mm"])?;
+    let [top, head_top, squeeze] = table.columns(["top_mm", "head_top_mm", "squeeze_n"])?;
     let mut before = 0.0;
     let read = |line: &Line<'_>| {
         let row = PullRow {
@@ -112,6 +112,7 @@ fn pull(
             contact_n: line.numbers(contacts)?,
             top_mm: line.number(top)?,
             head_top_mm: line.number(head_top)?,
+            squeeze_n: line.number(squeeze)?,
         };
         let forward = row.time_s > before;
         before = row.time_s;

@@ -40,6 +40,7 @@ fn cycle(name: &str) -> Cycle {
         easing: Easing::Smoothstep,
     };
     Cycle {
+        rest: 0.0,
         pull: gait(name),
         pull_duration: PhaseDuration::new(0.5).unwrap(),
         company: BTreeMap::new(),

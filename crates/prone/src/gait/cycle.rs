@@ -40,6 +40,9 @@ pub struct Cycle {
     pub recovery: Vec<Waypoint>,
     /// The last stretch, to the first posture of the next pull.
     pub approach: Approach,
+    /// How long it rests at its end, in the posture from which the next pull begins, s; whatever the
+    /// time scale.
+    pub rest: f64,
     /// How it turns, where it can.
     pub steering: Option<Steering>,
 }
@@ -165,7 +168,7 @@ impl Cycle {
     pub fn duration(&self, scale: TimeScale) -> f64 {
         let ways = self.recovery.iter().map(|waypoint| waypoint.approach);
         let recovery: f64 = ways.chain([self.approach]).map(|way| way.seconds).sum();
-        (self.pull_duration.seconds() + recovery) * scale.value()
+        (self.pull_duration.seconds() + recovery) * scale.value() + self.rest
     }
 }
 

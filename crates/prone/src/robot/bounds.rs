@@ -14,12 +14,10 @@ pub const ANGLE: f64 = std::f64::consts::TAU;
 pub const EFFORT: f64 = 1e3;
 /// Largest speed limit of a joint, rad/s.
 pub const SPEED: f64 = 1e3;
-/// Largest velocity gain of a servo, N·m·s/rad.
-pub const GAIN: f64 = 1e4;
+/// Largest stiffness of a servo, N·m/rad.
+pub const STIFFNESS: f64 = 1e5;
 /// Longest time between two commands, s.
 pub const COMMAND_STEP: f64 = 1.0;
-/// Largest rate of a servo's law, 1/s: a servo of that rate is faster than an engine's step.
-pub const SERVO_RATE: f64 = 1e4;
 /// Largest gain of steering, without unit or in rad/m.
 pub const STEERING: f64 = 100.0;
 /// Largest slope above which another cycle is taken, rad: a wall.

@@ -17,15 +17,15 @@ impl Robot {
         for _ in 0..ITERATIONS {
             let turn = Transform::<Ground, Root>::new(DQuat::from_rotation_y(pitch), DVec3::ZERO);
             let poses = self.forward_kinematics(turn, angles);
-            let lowest = |group: ContactGroup| {
+            let lowest = |is_meant: fn(ContactGroup) -> bool| {
                 self.bottom(&poses, |shape| {
-                    self.bodies[shape.body.0].contact_group == group
+                    is_meant(self.bodies[shape.body.0].contact_group)
                 })
             };
             let middle = |of: [Point<Ground>; 2]| f64::midpoint(of[0].x(), of[1].x());
             let toe = middle(self.chain.sides().map(|side| poses.point(side.toe)));
             let elbow = middle(self.chain.sides().map(|side| poses.point(side.elbow)));
-            let rise = lowest(ContactGroup::Elbow) - lowest(ContactGroup::Toe);
+            let rise = lowest(ContactGroup::is_front) - lowest(|it| it == ContactGroup::Toe);
             // A turn about +y lowers what is in front.
             pitch += rise.atan2(elbow - toe);
             if !pitch.is_finite() {

@@ -7,8 +7,7 @@ use glam::{DQuat, DVec3};
 
 use super::{
     Body, BodyId, ChainLayout, ContactGroup, Control, FixedArm, Joint, JointAngles, JointId,
-    PublishedChain, Range, Robot, SearchSetup, ServoLaw, Shape, SideLayout, Solid, SteeringGains,
-    StudySetup,
+    PublishedChain, Range, Robot, SearchSetup, Shape, SideLayout, Solid, SteeringGains, StudySetup,
 };
 use crate::chain::ClosedChain;
 use crate::frames::{Point, Transform};
@@ -40,7 +39,6 @@ impl Builder {
             mass: 0.3,
             centre_of_mass: Point::ORIGIN,
             contact_group: ContactGroup::Leg,
-            is_head: false,
         });
         self.joints.push(Joint {
             name: name.to_owned(),
@@ -53,7 +51,7 @@ impl Builder {
             },
             effort_limit: 3.0,
             speed_limit: 5.0,
-            servo_gain: 2.0,
+            servo_stiffness: 40.0,
             motor: None,
         });
         (body, joint)
@@ -115,7 +113,6 @@ pub(crate) fn two_armed() -> Robot {
             mass: 1.0,
             centre_of_mass: Point::ORIGIN,
             contact_group: ContactGroup::Torso,
-            is_head: false,
         }],
         joints: Vec::new(),
     };
@@ -126,6 +123,7 @@ pub(crate) fn two_armed() -> Robot {
         name: "two-armed".to_owned(),
         bodies: builder.bodies,
         joints: builder.joints,
+        shared_motors: Vec::new(),
         shapes: vec![Shape {
             name: "trunk".to_owned(),
             body: BodyId(0),
@@ -162,11 +160,7 @@ pub(crate) fn two_armed() -> Robot {
         imu: None,
         control: Control {
             command_step: 0.02,
-            servo: ServoLaw {
-                rate: 15.0,
-                speed: 2.0,
-            },
-            stiff_servo_gain: 12.0,
+            gear_efficiency: 0.7,
             steering: SteeringGains {
                 yaw: 0.8,
                 lateral: 3.0,

@@ -39,9 +39,9 @@ impl BodyPart {
     pub fn of(robot: &Robot, shape: &Shape) -> Self {
         let body = &robot.bodies[shape.body.0];
         match body.contact_group {
-            _ if body.is_head => Self::Head,
+            ContactGroup::Head => Self::Head,
             ContactGroup::Toe => Self::Feet,
-            ContactGroup::Elbow => Self::Arms,
+            ContactGroup::Elbow | ContactGroup::Hand => Self::Arms,
             ContactGroup::Torso => Self::Trunk,
             ContactGroup::Leg => Self::Legs,
         }

@@ -10,7 +10,7 @@ use super::{GridError, TorqueMap};
 /// under a robot of five kilograms.
 pub const CARRYING_SHARE: f64 = 0.01;
 
-/// Normal force of the floor by [`ContactGroup`], both sides together, N.
+/// Normal force of the floor by [`ContactGroup::OF_THE_STUDY`], both sides together, N.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactForces([f64; 4]);
 
@@ -22,12 +22,12 @@ pub struct RecordedMap {
 }
 
 impl ContactForces {
-    /// In the order of [`ContactGroup::ALL`].
+    /// In the order of [`ContactGroup::OF_THE_STUDY`].
     pub const fn from_array(newtons: [f64; 4]) -> Self {
         Self(newtons)
     }
 
-    /// In the order of [`ContactGroup::ALL`].
+    /// In the order of [`ContactGroup::OF_THE_STUDY`].
     pub const fn to_array(self) -> [f64; 4] {
         self.0
     }
@@ -35,7 +35,7 @@ impl ContactForces {
     /// The groups that carry more than [`CARRYING_SHARE`] of the whole: the contact mode.
     pub fn carrying(&self) -> impl Iterator<Item = ContactGroup> {
         let least = CARRYING_SHARE * self.0.iter().sum::<f64>();
-        let groups = ContactGroup::ALL.into_iter().zip(self.0);
+        let groups = ContactGroup::OF_THE_STUDY.into_iter().zip(self.0);
         groups.filter_map(move |(group, force)| (force > least).then_some(group))
     }
 }

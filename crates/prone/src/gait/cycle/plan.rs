@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::super::trajectory::{Company, note};
 use super::super::{CheckedTrajectory, Clamp, LimitsPolicy, PhaseDuration};
 use super::checked::Stretch;
-use super::{Approach, CheckedCycle, Cycle, CycleError, FastestJoint, TimeScale};
+use super::{Approach, CheckedCycle, Cycle, CycleError, Easing, FastestJoint, TimeScale};
 use crate::robot::{JointId, Mirror, Range, Robot, SideLayout};
 
 /// Time between two samples of a planned pull, s: commands in between are interpolated.
@@ -52,6 +52,16 @@ impl CheckedCycle {
                 .map(Some)
                 .collect(),
         });
+        if cycle.rest > 0.0 {
+            stretches.push(Stretch {
+                name: "rest".to_owned(),
+                approach: Approach {
+                    seconds: cycle.rest,
+                    easing: Easing::Linear,
+                },
+                targets: vec![None; robot.joints.len()],
+            });
+        }
         clamps.sort_by_key(|clamp| clamp.joint);
         let mut checked = Self {
             name: cycle.pull.name.clone(),

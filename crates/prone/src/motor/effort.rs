@@ -1,0 +1,187 @@
+//! What motors did in a time.
+
+use crate::robot::{Drive, Robot};
+
+/// What the motors of a robot did.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Effort {
+    /// Over which time, s.
+    pub seconds: f64,
+    /// By [`Robot::drives`].
+    pub motors: Vec<MotorEffort>,
+}
+
+/// What one motor did. Torque τ is **applied torque**: what the motor gave at the joint over a step,
+/// its back-EMF taken off; of a motor that turns several joints, their sum.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct MotorEffort {
+    /// ∫ τ² dt, N²·m²·s.
+    pub square: f64,
+    /// ∫ max(P, 0) dt, J, with its power P: a motor is not given back what it brakes.
+    pub work: f64,
+    /// Largest |τ|, N·m.
+    pub peak: f64,
+    /// How long its controller asked for more than the supply gives, s.
+    pub supply_clipped: f64,
+    /// How long the current limit cut what the supply would have given, s.
+    pub current_limited: f64,
+    /// Largest position error of its joints, rad.
+    pub largest_lag: f64,
+    /// Largest speed of its joints that was commanded, rad/s.
+    pub planned_speed: f64,
+}
+
+/// What one motor does in one engine step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MotorStep {
+    /// **Applied torque**, N·m; of several joints, their sum.
+    pub torque: f64,
+    /// Torque times speed at mid-step, W; of several joints, their sum.
+    pub power: f64,
+    /// Largest position error of its joints, rad.
+    pub lag: f64,
+    /// Whether its controller asked for more than the supply gives.
+    pub supply_clipped: bool,
+    /// Whether the current limit cut what the supply would have given.
+    pub current_limited: bool,
+}
+
+/// What a motor did, in terms of what it can do.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MotorUse {
+    /// ∫ (τ / nominal torque)² dt, s.
+    pub heat: f64,
+    /// √(∫ τ² dt / time) over what the gear passes on of the nominal torque.
+    pub rms_over_nominal: f64,
+    /// Largest commanded speed over the no-load speed.
+    pub planned_over_no_load: f64,
+    /// What the winding loses, J ([`crate::robot::Motor::winding_loss`]).
+    pub winding_loss: f64,
+}
+
+/// A motor of which too little is known.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "joint {joint} has no motor with all its figures in robot.toml, without which nothing is known of heat"
+)]
+pub struct UnknownMotor {
+    /// Name of the joint.
+    pub joint: String,
+}
+
+impl MotorEffort {
+    /// Adds a step of some length, s.
+    pub fn add_step(&mut self, step: &MotorStep, seconds: f64) {
+        self.square += step.torque * step.torque * seconds;
+        self.work += step.power.max(0.0) * seconds;
+        self.peak = self.peak.max(step.torque.abs());
+        self.largest_lag = self.largest_lag.max(step.lag);
+        if step.supply_clipped {
+            self.supply_clipped += seconds;
+        }
+        if step.current_limited {
+            self.current_limited += seconds;
+        }
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.square += other.square;
+        self.work += other.work;
+        self.peak = self.peak.max(other.peak);
+        self.supply_clipped += other.supply_clipped;
+        self.current_limited += other.current_limited;
+        self.largest_lag = self.largest_lag.max(other.largest_lag);
+        self.planned_speed = self.planned_speed.max(other.planned_speed);
+    }
+
+    /// √(∫ τ² dt / time), N·m.
+    pub fn rms(&self, seconds: f64) -> f64 {
+        (self.square / seconds).sqrt()
+    }
+
+    /// What a motor of a robot did over a time, s, behind a gear of some efficiency.
+    ///
+    /// # Errors
+    /// [`UnknownMotor`] where its figures are not known.
+    pub fn motor_use(
+        &self,
+        robot: &Robot,
+        drive: &Drive,
+        seconds: f64,
+        gear_efficiency: f64,
+    ) -> Result<MotorUse, UnknownMotor> {
+        let joint = drive.named_after(robot);
+        let known = joint
+            .motor
+            .and_then(|motor| Some((motor, motor.no_load_speed?, motor.winding_loss()?)));
+        let (motor, no_load, loss) = known.ok_or_else(|| UnknownMotor {
+            joint: joint.name.clone(),
+        })?;
+        Ok(MotorUse {
+            heat: self.square / (motor.nominal * motor.nominal),
+            rms_over_nominal: self.rms(seconds) / (gear_efficiency * motor.nominal),
+            planned_over_no_load: self.planned_speed / no_load,
+            winding_loss: self.square * loss,
+        })
+    }
+}
+
+impl Effort {
+    /// Of a robot that has done nothing yet.
+    pub fn none(robot: &Robot) -> Self {
+        Self {
+            seconds: 0.0,
+            motors: vec![MotorEffort::default(); robot.drives().len()],
+        }
+    }
+
+    /// Adds what was done in another time.
+    pub fn add(&mut self, other: &Self) {
+        self.seconds += other.seconds;
+        for (motor, other) in self.motors.iter_mut().zip(&other.motors) {
+            motor.add(other);
+        }
+    }
+
+    /// ∫ Σ (τ / nominal torque)² dt, s: in proportion to the heat of the windings.
+    ///
+    /// # Errors
+    /// [`UnknownMotor`]: the heat of some motors is not that of the robot.
+    pub fn heat(&self, robot: &Robot) -> Result<f64, UnknownMotor> {
+        let drives = robot.drives();
+        let heats = drives.iter().zip(&self.motors).map(|(drive, motor)| {
+            let it = motor.motor_use(robot, drive, 1.0, 1.0)?;
+            Ok(it.heat)
+        });
+        heats.sum()
+    }
+
+    /// ∫ Σ max(P, 0) dt, J.
+    pub fn work(&self) -> f64 {
+        self.motors.iter().map(|motor| motor.work).sum()
+    }
+
+    /// The largest |τ| over the effort limit, and the joint that its motor is named after.
+    pub fn peak_over_limit(&self, robot: &Robot) -> (f64, String) {
+        let drives = robot.drives();
+        let shares = drives.iter().zip(&self.motors).map(|(drive, motor)| {
+            let joint = drive.named_after(robot);
+            (motor.peak / joint.effort_limit, &joint.name)
+        });
+        let most = shares.reduce(|best, next| if next.0 > best.0 { next } else { best });
+        most.map_or((0.0, String::new()), |(share, name)| (share, name.clone()))
+    }
+}
+
+impl Robot {
+    /// Checks that the figures of all motors are known, without which a robot has no heat.
+    ///
+    /// # Errors
+    /// [`UnknownMotor`], the first one.
+    pub fn check_motors(&self) -> Result<(), UnknownMotor> {
+        Effort::none(self).heat(self).map(|_| ())
+    }
+}
+
+#[cfg(test)]
+mod tests;
