@@ -333,4 +333,6 @@ fn rear(simulation: &Simulation) -> f64 {
 }
 
 #[cfg(test)]
+mod balance;
+#[cfg(test)]
 mod tests;

@@ -90,10 +90,8 @@ mod tests {
         let down = DVec3::new(-slope.sin(), 0.0, -slope.cos()) * GRAVITY;
         assert!((options.gravity - down).length() < 1e-12);
         let drives = world.drives().iter();
-        for (drive, damping) in drives.flat_map(|it| {
-            let joints = it.drive.joints.iter();
-            joints.map(move |joint| (it, options.joint_damping[joint.0]))
-        }) {
+        for (drive, joint) in drives.flat_map(|it| it.drive.joints.iter().map(move |id| (it, id))) {
+            let damping = options.joint_damping[joint.0];
             let WorldServo::Motor(motor) = drive.servo else {
                 panic!("the regime has motors");
             };

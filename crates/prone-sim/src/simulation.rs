@@ -24,7 +24,7 @@ use motors::Motors;
 #[derive(Debug, Clone)]
 pub struct Simulation {
     world: World,
-    data: MjData<Arc<MjModel>>,
+    pub(crate) data: MjData<Arc<MjModel>>,
     reference: Vec<f64>,
     motors: Motors,
     steps: usize,

@@ -1,8 +1,9 @@
 //! Which way a cycle came: forward, to the left, and turned to the left, are positive.
 
+use prone::motor::Effort;
 use prone::robot::Tops;
 use prone::steering::Bearing;
-use prone_sim::crawl::{Advance, CycleRow, Effort};
+use prone_sim::crawl::{Advance, CycleRow, Ground};
 
 /// A cycle between two bearings, its pull ended half-way.
 fn cycle(from: Bearing, to: Bearing) -> CycleRow {
@@ -21,8 +22,9 @@ fn cycle(from: Bearing, to: Bearing) -> CycleRow {
         tops: Tops::NONE,
         effort: Effort {
             seconds: 1.0,
-            joints: Vec::new(),
+            motors: Vec::new(),
         },
+        ground: Ground::default(),
         body_share: 0.0,
         recovery_body_share: 0.0,
     }

@@ -6,6 +6,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use changed::{SAME, changed};
 use prone::regime::Regime;
+use prone::robot::ContactGroup;
 use prone_files::shipped::NAO;
 use prone_sim::{LoadedRobot, Placement, RobotFiles, Simulation, StepMeans, World};
 
@@ -85,10 +86,10 @@ fn a_model_in_degrees_is_the_same_robot_with_the_same_stops() {
     }
 }
 
-/// A lazy servo lets the robot sag where its own law holds, and changes no regime of the study.
+/// A worse gear lets the robot sag where its own motors hold it, and changes no regime of the study.
 #[test]
-fn the_servo_law_of_a_robot_holds_in_locomotion_alone() {
-    let lazy = ("servo_rate_per_s = 20.0", "servo_rate_per_s = 5.0");
+fn the_motors_of_a_robot_hold_in_locomotion_alone() {
+    let lazy = ("gear_efficiency = 0.6", "gear_efficiency = 0.1");
     let loaded = LoadedRobot::load(changed(lazy, SAME)).unwrap();
     assert!(run(&loaded, Regime::LOCOMOTION) != run(&nao(), Regime::LOCOMOTION));
     for study in [Regime::TORQUE_STUDY, Regime::TABLE] {
@@ -148,7 +149,7 @@ fn parts_that_press_on_one_another_are_no_ground_contact() {
     let weight = loaded.robot().mass() * 9.81;
     let world = World::new(&loaded, Regime::LOCOMOTION).unwrap();
     let mut simulation = Simulation::new(&world, &lying(&loaded));
-    let mut contact = [0.0; 4];
+    let mut contact = [0.0; ContactGroup::COUNT];
     for _ in 0..40 {
         contact = simulation.control_step().unwrap().contact;
     }

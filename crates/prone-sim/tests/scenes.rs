@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use prone::frames::Point;
 use prone::regime::Regime;
+use prone::robot::ContactGroup;
 use prone::scene::{Marker, Panel, Ramp, Roughness, Scene, SideFriction};
 use prone_files::shipped;
 use prone_sim::{LoadedRobot, Placement, RobotFiles, Simulation, World, WorldError};
@@ -173,7 +174,7 @@ fn rough_ground_and_ramps_carry_the_weight() {
     for scene in [on_bumps, on_ramp] {
         let world = World::in_scene(&loaded, Regime::LOCOMOTION, &scene).unwrap();
         let mut resting = Simulation::new(&world, &lying(&loaded));
-        let mut contact = [0.0; 4];
+        let mut contact = [0.0; ContactGroup::COUNT];
         for _ in 0..40 {
             contact = resting.control_step().unwrap().contact;
         }

@@ -1,10 +1,10 @@
 //! Work of a motor is what it lifts, and not what it lets down: m g h, by the law.
 
+use prone::motor::MotorEffort;
 use prone::regime::Regime;
 use prone::robot::{BodyId, JointAngles, JointId, Robot};
 use prone::statics::GRAVITY;
 use prone_files::shipped;
-use prone_sim::crawl::{JointEffort, MotorStep};
 use prone_sim::{LoadedRobot, Placement, RobotFiles, Simulation, World};
 
 /// Shoulder pitch of arms that point obliquely towards the feet, rad.
@@ -21,7 +21,7 @@ struct Lying {
     robot: Robot,
     shoulders: [JointId; 2],
     /// What the motors of both shoulders have done.
-    effort: JointEffort,
+    effort: MotorEffort,
 }
 
 impl Lying {
@@ -42,10 +42,10 @@ impl Lying {
             simulation: Simulation::new(&world, &placement),
             robot,
             shoulders,
-            effort: JointEffort::default(),
+            effort: MotorEffort::default(),
         };
         lying.turn_shoulders(LOW, LOW, 2.0);
-        lying.effort = JointEffort::default();
+        lying.effort = MotorEffort::default();
         lying
     }
 
@@ -63,14 +63,11 @@ impl Lying {
             }
             self.simulation.command(&posture);
             self.simulation.step();
-            for shoulder in self.shoulders {
-                let step = MotorStep {
-                    torque: self.simulation.actuator_torque()[shoulder.0],
-                    demanded: self.simulation.demanded_torque()[shoulder.0],
-                    speed: self.simulation.joint_speeds()[shoulder.0],
-                    seconds: self.simulation.time_step(),
-                };
-                self.effort.add_step(&step, &self.robot.joints[shoulder.0]);
+            let drives = self.robot.drives();
+            for (drive, step) in drives.iter().zip(self.simulation.motor_steps()) {
+                if self.shoulders.contains(&drive.joints[0]) {
+                    self.effort.add_step(step, self.simulation.time_step());
+                }
             }
         }
     }

@@ -49,7 +49,7 @@ impl GaitArgs {
 /// Which robot.
 #[derive(Debug, clap::Args)]
 pub(crate) struct RobotArg {
-    /// Robot: a name that ships with prone (nao, nao/v4), or the folder of a robot, or of a family
+    /// Robot: a name that ships with prone (nao, nao/v4, nao/v5, …), or the folder of a robot, or of a family
     /// for its default version [default: nao]
     #[arg(long, value_name = "ROBOT")]
     robot: Option<PathBuf>,

@@ -50,7 +50,7 @@ fn reference_keys_hold_what_the_sources_say() {
         ("axis", &knee["axis"][1], 1.0),
         ("effort", &knee["effort_limit_nm"], 3.023),
         ("speed", &knee["speed_limit_rad_s"], 6.4),
-        ("gain", &knee["servo_gain_nms"], 4.0),
+        ("stiffness", &knee["servo_stiffness_nm_rad"], 80.0),
         ("ratio", &motor["ratio"], 130.85),
         ("nominal", &motor["nominal_nm"], 0.0161 * 130.85),
         ("stall", &motor["stall_nm"], 0.068 * 130.85),
@@ -70,8 +70,7 @@ fn reference_keys_hold_what_the_sources_say() {
         ),
         ("bias", &imu["gyroscope_rad_s"]["bias_bound"], 0.01),
         ("step", &control["command_step_s"], 0.01),
-        ("rate", &control["servo_rate_per_s"], 20.0),
-        ("clip", &control["servo_speed_rad_s"], 3.0),
+        ("gears", &control["gear_efficiency"], 0.6),
         ("yaw", &control["steering"]["yaw"], 0.9),
         ("lateral", &control["steering"]["lateral_rad_m"], 3.5),
         ("sum", &control["steering"]["lateral_sum_rad_m"], 0.35),
@@ -111,9 +110,14 @@ fn robots() -> impl Strategy<Value = Robot> {
         robot.name = format!("\"{}\" \u{1F916}\n", number());
         for body in &mut robot.bodies {
             body.mass = number();
-            body.is_head = flags[0];
+            body.contact_group = if flags[0] {
+                ContactGroup::Head
+            } else {
+                body.contact_group
+            };
         }
-        robot.bodies[3].contact_group = ContactGroup::Leg;
+        robot.bodies[3].contact_group = ContactGroup::Toe;
+        robot.shared_motors.clear();
         robot.control.command_step = number();
         robot.control.steering.lateral_sum = number();
         robot.search.upper_arm.upper = number();
@@ -124,12 +128,12 @@ fn robots() -> impl Strategy<Value = Robot> {
             };
             joint.effort_limit = number();
             joint.speed_limit = number();
-            joint.servo_gain = number();
+            joint.servo_stiffness = number();
             joint.motor = flags[1].then(|| Motor {
                 ratio: number() * 100.0,
                 nominal: number(),
                 stall: number(),
-                no_load_speed: flags[2].then(&mut number),
+                no_load_speed: flags[2].then(|| 1.0 + number()),
             });
         }
         for angles in robot.postures.values_mut() {
@@ -266,7 +270,7 @@ fn limit_what_no_robot_has_is_refused_with_place_and_bound() {
         ("/robot/joints/0/range_rad", json!([0.5, 2e9])),
         ("/robot/joints/0/effort_limit_nm", json!(0.0)),
         ("/robot/joints/0/speed_limit_rad_s", json!(1000.5)),
-        ("/robot/joints/0/servo_gain_nms", json!(20_000.0)),
+        ("/robot/joints/0/servo_stiffness_nm_rad", json!(200_000.0)),
         ("/robot/joints/0/motor/ratio", json!(0.0)),
         ("/robot/joints/0/motor/stall_nm", json!(200_000.0)),
         ("/robot/joints/0/motor/no_load_speed_rad_s", json!(1000.0)),
@@ -306,9 +310,16 @@ fn limit_what_no_robot_has_is_refused_with_place_and_bound() {
         ),
         ("/robot/imu/gyroscope_rad_s/bias_bound", json!(10.5)),
         ("/robot/control/command_step_s", json!(0.0)),
-        ("/robot/control/servo_rate_per_s", json!(10_001.0)),
-        ("/robot/control/servo_speed_rad_s", json!(1001.0)),
-        ("/robot/control/stiff_servo_gain_nms", json!(-1.0)),
+        ("/robot/control/gear_efficiency", json!(1.1)),
+        ("/robot/joints/0/servo_stiffness_nm_rad", json!(-1.0)),
+        ("/robot/joints/0/speed_limit_rad_s", json!(8.27)),
+        ("/robot/joints/2/effort_limit_nm", json!(3.0)),
+        ("/robot/shared_motors", json!([["LHipYawPitch"]])),
+        (
+            "/robot/shared_motors",
+            json!([["LHipYawPitch", "LHipYawPitch"]]),
+        ),
+        ("/robot/shared_motors", json!([["LHipYawPitch", "HipYaw"]])),
         ("/robot/control/steering/yaw", json!(-0.1)),
         ("/robot/control/uphill_rad", json!(1.6)),
         ("/robot/search/least_advance_m", json!(0.0)),
@@ -374,7 +385,7 @@ fn limit_what_is_no_compiled_robot_is_refused() {
         refusal(&text[..text.len() / 2]),
         refusal(&format!("{text}{text}")),
         refusal(&changed("/format", json!("prone-run"))),
-        refusal(&changed("/format_version", json!(2))),
+        refusal(&changed("/format_version", json!(1))),
         refusal(&without(&format!("    {height},\n"))),
         refusal(&text.replacen("\"imu\"", "\"imus\"", 1)),
         refusal(&text.replacen("\"span_m\"", "\"span_m\": 1.0, \"span_m\"", 1)),

@@ -205,6 +205,6 @@ fn a_robot_that_ships_is_known_by_name() {
         .to_string();
     assert_eq!(
         message,
-        "there is no robot \"nao/v0\": it is neither one that ships with prone (nao, nao/v4) nor a folder"
+        "there is no robot \"nao/v0\": it is neither one that ships with prone (nao, nao/v4, nao/v5, nao/scene) nor a folder"
     );
 }

@@ -35,18 +35,18 @@ fn regression_shipped_cycles_advance_and_repeat_themselves() {
     let world = World::new(&robot, Regime::LOCOMOTION).unwrap();
     // mm per cycle of the third cycle, highest point in mm: today's, rounded.
     for (name, advance, top) in [
-        ("thesis-nominal", 75.0, 225.0),
-        ("thesis-optimal", 92.0, 225.0),
-        ("low-200", 148.0, 195.0),
-        ("low-175", 134.0, 175.0),
-        ("low-165", 132.0, 164.0),
-        ("hip-10", 113.0, 164.0),
-        ("far-200", 249.0, 186.0),
-        ("far-183", 237.0, 174.0),
-        ("far-165", 219.0, 162.0),
-        ("least-heat", 189.0, 196.0),
-        ("efficient", 180.0, 238.0),
-        ("gentle", 67.0, 244.0),
+        ("thesis-nominal", 76.1, 226.0),
+        ("thesis-optimal", 97.7, 226.0),
+        ("low-200", 140.0, 195.7),
+        ("low-175", 117.7, 177.2),
+        ("low-165", 122.6, 178.8),
+        ("hip-10", 113.2, 177.4),
+        ("far-200", 217.7, 186.2),
+        ("far-183", 222.2, 178.6),
+        ("far-165", 206.3, 162.5),
+        ("least-heat", 167.9, 196.0),
+        ("efficient", 154.1, 237.6),
+        ("gentle", 67.3, 238.0),
     ] {
         let crawl = crawl(&world, name, 3, 0.0);
         let third = &crawl.cycles[2];
@@ -244,9 +244,10 @@ fn no_limb_goes_through_another_in_a_shipped_cycle() {
     assert!(error.to_string().contains("s into the recovery"), "{error}");
 }
 
-/// The actuator's torque is the demanded one, cut at the effort limit.
+/// Torque is what the motor's equations say of the position error and the speed before a step and
+/// the speed after it, written down here once more.
 #[test]
-fn torque_is_demanded_and_cut() {
+fn identity_applied_torque_is_that_of_the_motors_equations() {
     let robot = nao();
     let world = World::new(&robot, Regime::LOCOMOTION).unwrap();
     let robot = world.robot();
@@ -260,24 +261,77 @@ fn torque_is_demanded_and_cut() {
         far[joint] = 0.3;
     }
     simulation.command(&far);
-    let mut cut = 0;
+    let (mut clipped, mut limited) = (0, 0);
+    let efficiency = robot.control.gear_efficiency;
     for _ in 0..200 {
+        let speeds = simulation.joint_speeds().to_vec();
+        let angles = simulation.joint_angles();
         simulation.step();
-        let torques = simulation
-            .actuator_torque()
-            .iter()
-            .zip(simulation.demanded_torque());
-        for (joint, (torque, demanded)) in robot.joints.iter().zip(torques) {
-            let limit = joint.effort_limit;
-            assert!(
-                (torque - demanded.clamp(-limit, limit)).abs() < 1e-9,
-                "{}",
-                joint.name
+        for (index, joint) in robot.joints.iter().enumerate() {
+            if joint.name.contains("HipYawPitch") {
+                continue; // two joints of one motor: another test
+            }
+            let motor = joint.motor.unwrap();
+            let stall = efficiency * motor.stall;
+            let loss = stall / motor.no_load_speed.unwrap();
+            let error = far.as_slice()[index] - angles.as_slice()[index];
+            let wanted = joint.servo_stiffness * error;
+            let supplied = wanted.clamp(-stall, stall);
+            let (lowest, highest) = (
+                loss * speeds[index] - joint.effort_limit,
+                loss * speeds[index] + joint.effort_limit,
             );
-            cut += usize::from(demanded.abs() > limit);
+            let told = supplied.clamp(lowest, highest);
+            let torque = told - loss * simulation.joint_speeds()[index];
+            let found = simulation.applied_torque()[index];
+            assert!((torque - found).abs() < 1e-9, "{}", joint.name);
+            clipped += usize::from(wanted.abs() > stall);
+            limited += usize::from(told < supplied || told > supplied);
         }
     }
-    assert!(cut > 0, "nothing was demanded beyond a limit");
+    assert!(clipped > 0 && limited > 0, "{clipped} {limited}");
+}
+
+/// One motor turns both hips' yaw-pitch: it is told once, shares its torque evenly, and its limit is
+/// that of one motor.
+#[test]
+fn a_shared_motor_gives_no_more_than_one() {
+    let robot = nao();
+    let world = World::new(&robot, Regime::LOCOMOTION).unwrap();
+    let robot = world.robot();
+    let joints = ["LHipYawPitch", "RHipYawPitch"].map(|name| robot.joint(name).unwrap());
+    let placement = Placement {
+        posture: JointAngles::zero(robot),
+        pitch: std::f64::consts::FRAC_PI_2,
+    };
+    let mut simulation = Simulation::new(&world, &placement);
+    let mut far = JointAngles::zero(robot);
+    for joint in joints {
+        far[joint] = -0.8;
+    }
+    simulation.command(&far);
+    let drives = robot.drives();
+    let index = drives.iter().position(|it| it.joints == joints).unwrap();
+    let limit = robot.joints[joints[0].0].effort_limit;
+    let mut most = 0.0_f64;
+    for _ in 0..400 {
+        simulation.step();
+        let [left, right] = joints.map(|joint| simulation.applied_torque()[joint.0]);
+        let sum = simulation.motor_steps()[index].torque;
+        assert!((sum - left - right).abs() < 1e-12);
+        // The model's coupling lets the joints move apart a little, and with it the back-EMF.
+        assert!((left - right).abs() < 0.05 * limit, "{left} {right}");
+        most = most.max(sum.abs());
+    }
+    assert!(
+        most > 0.9 * limit && most < 1.05 * limit,
+        "{most} N·m of {limit}"
+    );
+    let reached = simulation.joint_angles();
+    assert!(
+        joints.iter().all(|joint| reached[*joint] < -0.6),
+        "{reached:?}"
+    );
 }
 
 /// Whatever the next turn is, arms that a waypoint holds stay where the last one has planted them.
@@ -366,7 +420,7 @@ fn a_crawl_begins_where_the_robot_lies() {
     let (crawl, robot) = proceed(lying, crawler, &plan, &never).unwrap();
     let third = crawl.cycles[2].advance().forward;
     // As from its settled start, within a tenth: it lies beside its line, turned a little.
-    assert!((third - 0.134).abs() < 0.0134, "{third} m");
+    assert!((third - 0.118).abs() < 0.0118, "{third} m");
     assert_eq!(robot.commanded(), &extension);
 }
 

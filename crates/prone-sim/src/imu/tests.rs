@@ -164,7 +164,7 @@ fn identity_the_gyroscope_turns_as_the_root_does() {
         let posture = prone::robot::JointAngles::zero(world.robot());
         let mut simulation = Simulation::new(&world, &Placement { posture, pitch });
         let mut imu = exact(SimulatedImu::new(&world, 1).unwrap());
-        for _ in 0..60 {
+        for _ in 0..120 {
             simulation.step();
         }
         let before = simulation.ground_from_root().rotation();

@@ -208,3 +208,181 @@ pub(super) fn check(
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use prone::regime::{Effort, MotorServo};
+    use prone::robot::{Joint, Motor};
+    use prone_files::shipped;
+
+    use super::*;
+    use crate::world::{World, WorldError};
+    use crate::{LoadedRobot, RobotFiles};
+
+    /// One hinge that nothing touches and nothing loads, with an inertia, kg·m².
+    fn hinge(step: f64, inertia: f64, damping: f64, actuator: &str) -> MjData<Arc<MjModel>> {
+        let text = format!(
+            "<mujoco><option timestep='{step}' integrator='implicitfast' gravity='0 0 0'/>\
+             <worldbody><body><joint name='j' axis='0 1 0' damping='{damping}'/>\
+             <inertial pos='0 0 0' mass='.1' diaginertia='{inertia} {inertia} {inertia}'/></body>\
+             </worldbody><actuator>{actuator}</actuator></mujoco>"
+        );
+        let spec = MjSpec::from_xml_string(&text);
+        let model = spec.and_then(|mut spec| spec.compile()).unwrap();
+        MjData::new(Arc::new(model))
+    }
+
+    /// Root mean square of the torque over the last half-second of five seconds, in which the hinge
+    /// was knocked once; `torque` makes one step and returns what was applied.
+    fn after_a_knock(
+        data: &mut MjData<Arc<MjModel>>,
+        knock: f64,
+        mut torque: impl FnMut(&mut MjData<Arc<MjModel>>) -> f64,
+    ) -> f64 {
+        let step = data.model().opt().timestep;
+        let steps = (5.0 / step) as usize;
+        let last = steps / 10;
+        let mut square = 0.0;
+        for index in 0..steps {
+            if index == steps / 5 {
+                data.qvel_mut()[0] += knock;
+            }
+            let applied = torque(data);
+            if index >= steps - last {
+                square += applied * applied;
+            }
+        }
+        (square / last as f64).sqrt()
+    }
+
+    /// A shoulder of the NAO, as stiff as the review's servos.
+    fn shoulder() -> Joint {
+        let robot = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
+        let id = robot.robot().chain.left.shoulder;
+        robot.robot().joints[id.0].clone()
+    }
+
+    /// Once knocked, a velocity servo that can reach its limit bangs for ever where kᵥ h / I is
+    /// above 2. A motor comes to rest, up to 400 N·m/rad at 2.5 ms.
+    #[test]
+    fn limit_a_knock_dies_out() {
+        const INERTIA: f64 = 0.0055;
+        const STEP: f64 = 0.0025;
+        let joint = shoulder();
+        let limit = joint.effort_limit;
+        // What made the review's orbit: half of what the limit changes the speed by in a step.
+        let knocks = [0.5, 5.0, 15.0].map(|share| share * limit * STEP / INERTIA);
+        let law = VelocityServo::RECORDINGS;
+        let gain = 20.0;
+        let servo = format!("<velocity joint='j' kv='{gain}' forcerange='-{limit} {limit}'/>");
+        let mut data = hinge(STEP, INERTIA, 0.0, &servo);
+        let left = after_a_knock(&mut data, knocks[0], |data| {
+            data.ctrl_mut()[0] = law.command(-data.qpos()[0]);
+            data.step();
+            data.actuator_force()[0]
+        });
+        assert!(left > 0.9 * limit, "the old servo had been quiet: {left}");
+        for stiffer in [1.0, 4.0, 10.0] {
+            for knock in knocks {
+                let motor = DcServo::new(&joint, 0.6, stiffer, limit);
+                let mut data = hinge(STEP, INERTIA, motor.back_emf, "<motor joint='j'/>");
+                let left = after_a_knock(&mut data, knock, |data| {
+                    let told = motor.drive(-data.qpos()[0], data.qvel()[0]);
+                    data.ctrl_mut()[0] = told.torque;
+                    data.step();
+                    motor.applied(&told, data.qvel()[0])
+                });
+                assert!(left < 1e-3 * limit, "{stiffer} × K, {knock} rad/s: {left}");
+            }
+        }
+    }
+
+    fn refused(robot: &Robot, regime: Regime) -> Option<String> {
+        let shipped = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
+        let world = World::new(&shipped, regime).unwrap();
+        let drives = of(robot, &regime);
+        let refused = check(&world.model, robot, &regime, &drives);
+        refused.err().map(|error| error.to_string())
+    }
+
+    #[test]
+    fn limit_servos_that_a_step_is_too_long_for_are_refused_with_joint_and_value() {
+        let shipped = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
+        let mut robot = Robot::clone(shipped.robot());
+        let stiff = Regime::LOCOMOTION.with_motors(MotorServo::STIFF);
+        for regime in [
+            Regime::LOCOMOTION,
+            stiff,
+            Regime::TORQUE_STUDY,
+            Regime::TABLE,
+        ] {
+            assert_eq!(refused(&robot, regime), None, "{}", regime.name);
+        }
+        let neck = robot.joint("HeadPitch").unwrap();
+        robot.joints[neck.0].servo_stiffness = 4000.0;
+        let expected = "joint HeadPitch: a servo stiffness of 4000 N·m/rad times the square of the \
+                        engine step of 2.5 ms, over the inertia that its motor moves, is";
+        let said = refused(&robot, Regime::LOCOMOTION).unwrap();
+        assert!(said.starts_with(expected), "{said}");
+        // The same with a finer step: its square is what counts.
+        let fine = Regime {
+            time_step: 0.001,
+            ..Regime::LOCOMOTION
+        };
+        assert_eq!(refused(&robot, fine), None);
+        // The head's gain of 20 N·m·s/rad that it once had in the study: within reach of 30 N·m.
+        robot.joints[neck.0].servo_stiffness = 400.0;
+        let said = refused(&robot, Regime::TORQUE_STUDY).unwrap();
+        assert!(
+            said.starts_with("joint HeadPitch: a velocity gain of 20 N·m·s/rad"),
+            "{said}"
+        );
+        let out_of_reach = Regime {
+            effort: Effort::Uniform(1000.0),
+            ..Regime::TORQUE_STUDY
+        };
+        assert_eq!(refused(&robot, out_of_reach), None);
+    }
+
+    /// A robot with such a servo makes no world, and the error names it.
+    #[test]
+    fn a_world_of_a_servo_that_is_too_stiff_is_an_error() {
+        let mut files = RobotFiles::shipped(&shipped::NAO);
+        let joint = "speed_rad_s = 6.46          # published 7.19\nservo_stiffness_nm_rad = 80.0";
+        assert!(files.toml.contains(joint));
+        files.toml = files.toml.replacen(joint, &joint.replace("80.0", "9e4"), 1);
+        let loaded = LoadedRobot::load(files).unwrap();
+        let error = World::new(&loaded, Regime::LOCOMOTION).unwrap_err();
+        assert!(matches!(error, WorldError::Servo { .. }), "{error}");
+        let message = error.to_string();
+        assert!(
+            message.starts_with(
+                "NAO H25 V4 in regime locomotion: joint HeadPitch: a servo stiffness of 90000"
+            ),
+            "{message}"
+        );
+    }
+
+    /// Of a robot without motors the limits are taken, and it is said.
+    #[test]
+    fn motors_that_are_not_known_are_assumed() {
+        let shipped = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
+        let mut robot = Robot::clone(shipped.robot());
+        for joint in &mut robot.joints {
+            joint.motor = joint.motor.map(|motor| Motor {
+                no_load_speed: None,
+                ..motor
+            });
+        }
+        for WorldDrive { drive, servo } in of(&robot, &Regime::LOCOMOTION) {
+            let joint = drive.named_after(&robot);
+            let WorldServo::Motor(motor) = servo else {
+                panic!("{servo:?}");
+            };
+            assert!(motor.assumed, "{}", joint.name);
+            assert!((motor.back_emf - joint.effort_limit / joint.speed_limit).abs() < 1e-12);
+        }
+    }
+}
