@@ -7,7 +7,7 @@ export const FORMAT_VERSION = 1;
 export const BODY_PARTS = ["head", "trunk", "arms", "legs", "feet"] as const;
 
 /** Groups of the body whose contacts are recorded, as the columns `<group>_n` call them. */
-export const CONTACT_GROUPS = ["toe", "elbow", "torso", "leg"] as const;
+export const CONTACT_GROUPS = ["toe", "elbow", "torso", "leg", "head", "hand"] as const;
 
 export type Vec3 = [number, number, number];
 /** Real part first. */

@@ -6,10 +6,10 @@ use tempfile::TempDir;
 
 /// Of a robot with one hinge: three rows, four contacts.
 pub(crate) const ROWS: &str = "\
-time_s,cycle,stage,s,x_mm,y_mm,z_mm,qw,qx,qy,qz,A_cmd_rad,A_rad,A_nm,toe_n,elbow_n,torso_n,leg_n,contacts
-0.0200,1,pull,0.0,100.000,0.000,50.000,1,0,0,0,0.1,0.0,0.5,1,2,3,4,1
-0.0400,1,pull,0.1,200.000,0.000,50.000,1,0,0,0,0.2,1.5707963,0.6,1,2,3,4,2
-0.0600,1,recovery,,300.000,0.000,50.000,1,0,0,0,0.3,2.0,0.7,1,2,3,4,1
+time_s,cycle,stage,s,x_mm,y_mm,z_mm,qw,qx,qy,qz,A_cmd_rad,A_rad,A_nm,toe_n,elbow_n,torso_n,leg_n,head_n,hand_n,contacts
+0.0200,1,pull,0.0,100.000,0.000,50.000,1,0,0,0,0.1,0.0,0.5,1,2,3,4,5,6,1
+0.0400,1,pull,0.1,200.000,0.000,50.000,1,0,0,0,0.2,1.5707963,0.6,1,2,3,4,5,6,2
+0.0600,1,recovery,,300.000,0.000,50.000,1,0,0,0,0.3,2.0,0.7,1,2,3,4,5,6,1
 ";
 
 pub(crate) const CONTACTS: &str = "\
@@ -34,10 +34,10 @@ pub(crate) const CHANNELS: &str = r#"[
     {"table": "rows.csv", "columns": ["A_cmd_rad"], "is": "command", "unit": "rad"},
     {"table": "rows.csv", "columns": ["A_rad"], "is": "instant", "unit": "rad"},
     {"table": "rows.csv", "columns": ["A_nm"], "is": "mean over the row", "unit": "N·m"},
-    {"table": "rows.csv", "columns": ["toe_n", "elbow_n", "torso_n", "leg_n"], "is": "mean over the row", "unit": "N"},
+    {"table": "rows.csv", "columns": ["toe_n", "elbow_n", "torso_n", "leg_n", "head_n", "hand_n"], "is": "mean over the row", "unit": "N"},
     {"table": "rows.csv", "columns": ["contacts"], "is": "instant", "unit": "1"},
-    {"table": "contacts.csv", "columns": ["x_mm", "y_mm", "z_mm"], "is": "instant", "unit": "mm"},
-    {"table": "contacts.csv", "columns": ["fx_n", "fy_n", "fz_n"], "is": "instant", "unit": "N"}]"#;
+    {"table": "contacts.csv", "columns": ["x_mm", "y_mm", "z_mm"], "is": "mean over the row", "unit": "mm"},
+    {"table": "contacts.csv", "columns": ["fx_n", "fy_n", "fz_n"], "is": "mean over the row", "unit": "N"}]"#;
 
 /// Where the sample comes from.
 pub(crate) const ORIGIN: &str = r#"{"kind": "imported", "from": "a test"}"#;
@@ -50,7 +50,7 @@ pub(crate) fn run_json() -> String {
         "scene": {{"name": "level"}},
         "origin": {ORIGIN},
         "options": {{"time_scale": 1.0, "scene_text": null, "steering": "none"}},
-        "record": {{"format": 2, "rows": 3, "row_step_s": 0.02, "channels": {CHANNELS}}}}}"#,
+        "record": {{"format": 3, "rows": 3, "row_step_s": 0.02, "channels": {CHANNELS}}}}}"#,
         env!("CARGO_PKG_VERSION")
     )
 }

@@ -74,7 +74,7 @@ fn a_record_is_read_in_si() {
 /// Each row has one thing wrong in its last line; two rows are left, and three contacts.
 #[test]
 fn rows_end_where_they_are_damaged() {
-    let last = "0.0600,1,recovery,,300.000,0.000,50.000,1,0,0,0,0.3,2.0,0.7,1,2,3,4,1\n";
+    let last = "0.0600,1,recovery,,300.000,0.000,50.000,1,0,0,0,0.3,2.0,0.7,1,2,3,4,5,6,1\n";
     assert!(ROWS.ends_with(last));
     let with = |from: &str, to: &str| ROWS.replace(from, to);
     let cases = [
@@ -84,7 +84,7 @@ fn rows_end_where_they_are_damaged() {
         ),
         (ROWS.replace(last, ""), "the table ends after 2 of 3 rows"),
         (
-            with(",0.7,1,2,3,4,1", ""),
+            with(",0.7,1,2,3,4,5,6,1", ""),
             "13 cells, where the header has 19",
         ),
         (
@@ -121,12 +121,12 @@ fn rows_end_where_they_are_damaged() {
             "the root's quaternion has the length 0.0000",
         ),
         (
-            with("0.7,1,2,3,4,1", "0.7,1,2,3,4,70000"),
+            with("0.7,1,2,3,4,5,6,1", "0.7,1,2,3,4,5,6,70000"),
             "contacts is \"70000\", and must be 0 to 65535",
         ),
         // A count is never unknown: without it nobody knows whether contacts.csv is whole.
         (
-            with("0.7,1,2,3,4,1", "0.7,1,2,3,4,"),
+            with("0.7,1,2,3,4,5,6,1", "0.7,1,2,3,4,5,6,"),
             "contacts is \"\", and must be 0 to 65535",
         ),
         (
@@ -288,10 +288,10 @@ fn what_is_no_record_is_refused_with_a_reason() {
             "RUN/run.json was written by prone 9.9.9, this is prone {version}, which reads its own results only: make it anew"
         ),
         &format!(
-            "RUN/run.json: the record has format 1, written by prone {version} of commit c; this build of prone reads format 2: record it anew"
+            "RUN/run.json: the record has format 1, written by prone {version} of commit c; this build of prone reads format 3: record it anew"
         ),
         &format!(
-            "RUN/run.json: the record has format 3, written by prone {version} of commit c; this build of prone reads format 2: record it anew"
+            "RUN/run.json: the record has format 4, written by prone {version} of commit c; this build of prone reads format 3: record it anew"
         ),
         "RUN/run.json: row_step_s 0 is outside 0..10 s",
         "RUN/run.json: record.channels lists contacts.csv without the column contacts of rows.csv",
@@ -326,13 +326,16 @@ fn what_needs_no_table_is_read_without() {
 #[test]
 fn a_record_is_read_as_it_is_written() {
     let simulated = r#"{"kind": "simulated", "engine": "E 1", "name": "locomotion",
-        "friction": 0.7, "impratio": 10.0, "effort_limit": "l", "stops": "s", "servo_gain": "g",
-        "servo_rate_per_s": 20.0, "servo_speed_rad_s": 3.0, "time_step_s": 0.0025,
+        "friction": 0.7, "impratio": 10.0, "effort_limit": "l", "stops": "s", "servo": "g",
+        "time_step_s": 0.0025,
         "command_step_s": 0.01, "settle_s": 1.0, "solref": [0.02, 1.0],
         "solimp": [0.9, 0.99, 0.001, 0.5, 2.0], "integrator": "i", "solver": "Newton",
         "solver_iterations": 100, "solver_tolerance": 1e-8, "cone": "elliptic",
-        "gravity_m_s2": [0.0, 0.0, -9.81], "servo_gains_nms_rad": {"A": 1.0},
-        "effort_limits_nm": {"A": 2.0}}"#;
+        "gravity_m_s2": [0.0, 0.0, -9.81], "joint_damping_nms_rad": {"A": 0.1},
+        "servos": {"A": {"law": "dc-motor", "joints": ["A"], "stiffness_nm_rad": 80.0,
+        "supply_torque_nm": 1.0, "current_torque_nm": 2.0, "back_emf_nms_rad": 0.1,
+        "assumed": false}, "B": {"law": "velocity", "gain_nms_rad": 4.0, "rate_per_s": 20.0,
+        "speed_rad_s": 3.0, "limit_nm": 30.0}}}"#;
     let info_of = |text: &str| RecordInfo::read(folder(&[(RUN_FILE, Some(text))]).path()).unwrap();
     let info = info_of(&run_json().replace(sample::ORIGIN, simulated));
     let written = serde_json::to_value(&info).unwrap();
@@ -401,8 +404,8 @@ fn what_run_json_says_of_a_column_is_checked() {
             "A_cmd_rad of rows.csv is \"command\", not \"instant\"",
         ),
         (
-            r#"["fx_n", "fy_n", "fz_n"], "is": "instant", "unit": "N""#,
-            r#"["fx_n", "fy_n", "fz_n"], "is": "instant", "unit": "kN""#,
+            r#"["fx_n", "fy_n", "fz_n"], "is": "mean over the row", "unit": "N""#,
+            r#"["fx_n", "fy_n", "fz_n"], "is": "mean over the row", "unit": "kN""#,
             "fx_n of contacts.csv is in N, not in kN",
         ),
         (
@@ -487,7 +490,7 @@ fn errors_of_run_json_name_the_key() {
         (
             "\"is\": \"instant\"",
             "\"is\": \"median\"",
-            "record.is: unknown variant `median`, expected one of `mean over the row`, `instant`, `command`",
+            "record.is: unknown variant `median`, expected one of `mean over the row`, `sum over the row`, `instant`, `command`",
         ),
         (
             "\"name\": \"level\"",
@@ -521,7 +524,7 @@ fn a_record_of_the_release_before_is_refused_by_name_and_format() {
         without_place(&said, home.path()),
         format!(
             "RUN/run.json: the record has format 1, written by prone {version} of commit d813b9b; \
-             this build of prone reads format 2: record it anew"
+             this build of prone reads format 3: record it anew"
         )
     );
 }

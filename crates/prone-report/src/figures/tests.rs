@@ -51,6 +51,7 @@ fn pull(gait: &str, duration_s: f64) -> PullRecord {
             contact_n: [0.0; 4],
             top_mm: 0.0,
             head_top_mm: 0.0,
+            squeeze_n: 0.0,
         }
     };
     PullRecord {

@@ -115,11 +115,11 @@ fn simulated() -> Value {
     json!({
         "kind": "simulated", "engine": "by hand", "name": "locomotion", "friction": 0.7,
         "impratio": 10.0, "effort_limit": "the maker's", "stops": "the maker's",
-        "servo_gain": "the robot's", "servo_rate_per_s": 20.0, "servo_speed_rad_s": 3.0,
+        "servo": "DC motors",
         "time_step_s": 0.0025, "command_step_s": 0.01, "settle_s": 1.0, "solref": [0.02, 1.0],
         "solimp": [0.9, 0.99, 0.001, 0.5, 2.0], "integrator": "implicitfast", "solver": "Newton",
         "solver_iterations": 100, "solver_tolerance": 1e-8, "cone": "elliptic",
-        "gravity_m_s2": [0.0, 0.0, -9.81], "servo_gains_nms_rad": {}, "effort_limits_nm": {},
+        "gravity_m_s2": [0.0, 0.0, -9.81], "servos": {}, "joint_damping_nms_rad": {},
     })
 }
 
@@ -129,7 +129,7 @@ fn written(folder: &Path, origin: &Value) {
     let robot = nao.robot();
     let channels = record_columns::channels(robot);
     let record = json!({
-        "format": 2, "rows": TIMES_S.len(), "row_step_s": 0.02, "channels": channels,
+        "format": 3, "rows": TIMES_S.len(), "row_step_s": 0.02, "channels": channels,
     });
     let options = json!({
         "most_cycles": 1, "time_scale": 1.0, "steering": "none", "turn_command_deg": 0.0,
@@ -188,7 +188,7 @@ pub(crate) fn sparse(folder: &Path) {
         {"table": "rows.csv", "columns": [torque], "is": "instant", "unit": "N·m"},
     ]);
     let origin = driven_by_hand();
-    let record = json!({"format": 2, "rows": 3, "row_step_s": null, "channels": channels});
+    let record = json!({"format": 3, "rows": 3, "row_step_s": null, "channels": channels});
     let options = json!({"time_scale": 1.0});
     write(folder, "run.json", &run(&nao, &origin, &record, &options));
     write(folder, "model.json", &model(robot));
@@ -209,6 +209,27 @@ fn write(folder: &Path, file: &str, value: &Value) {
 }
 
 /// Figures of a crawl that did not get far.
+/// What a group of bodies carries, N.
+fn load(mean_n: f64) -> Value {
+    json!({"mean_n": mean_n, "peak_n": 2.0 * mean_n, "share_of_time": 0.5})
+}
+
+fn ground() -> Value {
+    json!({
+        "toe": load(20.0), "elbow": load(15.0), "torso": load(5.0), "leg": load(3.0),
+        "head": load(0.5), "hand": load(8.0),
+    })
+}
+
+fn verdict() -> Value {
+    json!({
+        "duty": "limited", "unknown": null, "gear_efficiency": 0.6, "reasons": [{
+            "measure": "RMS torque over nominal", "joint": "LKneePitch", "value": 1.2,
+            "continuous": 1.0, "limited": 1.7,
+        }],
+    })
+}
+
 fn summary() -> Value {
     json!({
         "gait": "low-175", "robot": "NAO H25 V4", "scene": "level", "cycles": 1, "arrived": null,
@@ -222,6 +243,6 @@ fn summary() -> Value {
         "saturated_shoulder_share": 0.0, "saturated_share": 0.0, "saturated_joint": null,
         "heat_s": 0.1, "heat_per_metre_s": 500.0, "work_j": 0.1, "cost_of_transport": 9.6,
         "winding_loss_j": null, "electrical_cost_of_transport": null, "joints": [], "clamps": [],
-        "per_cycle": [],
+        "per_cycle": [], "heat_per_second": 1.7, "ground": ground(), "verdict": verdict(),
     })
 }

@@ -16,7 +16,8 @@ fn warm(heat_per_metre: f64) -> Trial {
         heat_per_metre,
         peak_over_limit: (1.0, String::new()),
         demanded_shoulder: heat_per_metre,
-        shoulder_saturated: 0.0,
+        head: 0.0,
+        weight: 50.0,
         body_share: 0.0,
         yaw: 0.0,
     }

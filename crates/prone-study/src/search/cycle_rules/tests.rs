@@ -10,8 +10,12 @@ const RULES: CycleRules = CycleRules {
     body_share: 0.3,
     seconds: 4.0,
     demanded_shoulder: 2.0,
+    head: 1.5,
     heat: 50.0,
 };
+
+/// The robot's own servos.
+const OWN: Servo = Servo::DcMotor(MotorServo::ROBOT);
 
 /// The first setting's advance, m.
 const FIRST: f64 = 0.16;
@@ -32,14 +36,15 @@ fn on_the_limit() -> Trial {
         heat_per_metre: RULES.heat,
         peak_over_limit: (1.0, String::new()),
         demanded_shoulder: RULES.demanded_shoulder,
-        shoulder_saturated: 0.0,
+        head: RULES.head,
+        weight: 50.0,
         body_share: RULES.body_share,
         yaw: 0.0,
     }
 }
 
 fn broken(role: Role, trial: &Trial) -> f64 {
-    in_all(&RULES.broken_by_trial(role, Servo::Robot, trial, FIRST))
+    in_all(&RULES.broken_by_trial(role, OWN, trial, FIRST))
 }
 
 fn in_all(broken: &[(&'static str, f64)]) -> f64 {
@@ -151,7 +156,7 @@ fn a_share_is_at_least_that_of_the_least_advance() {
     let role = Role::Keep(0.85);
     for first in [0.2 * RULES.advance, 0.0, -1.0, f64::NAN] {
         near(
-            in_all(&RULES.broken_by_trial(role, Servo::Robot, &trial, first)),
+            in_all(&RULES.broken_by_trial(role, OWN, &trial, first)),
             0.5,
         );
     }
@@ -180,7 +185,7 @@ fn trunk_and_legs_may_not_carry_more_where_values_count() {
         ..on_the_limit()
     };
     near(
-        in_all(&free.broken_by_trial(Role::Value, Servo::Robot, &trial, FIRST)),
+        in_all(&free.broken_by_trial(Role::Value, OWN, &trial, FIRST)),
         0.0,
     );
 }
@@ -197,8 +202,11 @@ fn a_shoulders_own_servo_may_not_demand_more() {
         }
     };
     let limit = RULES.demanded_shoulder;
-    holds(limit, Side::Below, 0.1, demanded(Servo::Robot));
-    near(demanded(Servo::Uniform(20.0))(10.0 * limit), 0.0);
+    holds(limit, Side::Below, 0.1, demanded(OWN));
+    near(
+        demanded(Servo::DcMotor(MotorServo::STIFF))(10.0 * limit),
+        0.0,
+    );
 }
 
 #[test]
@@ -312,11 +320,14 @@ fn a_cycle_holds_where_it_is_low_far_and_straight() {
         heat_per_metre: 50.0,
         peak_over_limit: (1.0, String::new()),
         demanded_shoulder: 2.0,
-        shoulder_saturated: 0.0,
+        head: 0.5,
+        weight: 50.0,
         body_share: 0.1,
         yaw: 0.03,
     };
-    let at = |role: Role, kept: f64, ceiling: f64| super::holds(role, &trial, kept, ceiling);
+    let at = |role: Role, kept: f64, ceiling: f64| {
+        super::holds(role, &trial, kept, Bounds { ceiling, head: 1.0 })
+    };
     assert!(at(Role::Value, 1.0, 0.18));
     for ceiling in [0.16, 0.17, f64::NAN] {
         assert!(!at(Role::Value, 1.0, ceiling), "under {ceiling} m");
@@ -339,6 +350,39 @@ fn a_cycle_holds_where_it_is_low_far_and_straight() {
             yaw,
             ..trial.clone()
         };
-        assert!(!super::holds(straight(0.04), &bad, 1.0, 0.18), "{bad:?}");
+        assert!(!super::holds(straight(0.04), &bad, 1.0, BOUNDS), "{bad:?}");
     }
+    for head in [1.1, f64::NAN] {
+        let bad = Trial {
+            head,
+            ..trial.clone()
+        };
+        assert!(!super::holds(Role::Value, &bad, 1.0, BOUNDS), "{head} N");
+    }
+}
+
+const BOUNDS: Bounds = Bounds {
+    ceiling: 0.18,
+    head: 1.0,
+};
+
+/// In shares of the weight, whatever the setting is for.
+#[test]
+fn the_head_may_not_carry() {
+    let carried = |role: Role| {
+        move |head: f64| {
+            let trial = Trial {
+                advance: FIRST,
+                head,
+                ..on_the_limit()
+            };
+            broken(role, &trial)
+        }
+    };
+    for role in [Role::Value, Role::Keep(0.85)] {
+        near(carried(role)(RULES.head), 0.0);
+        near(carried(role)(RULES.head + 10.0), 10.0 / 50.0);
+        near(carried(role)(f64::NAN), UNTRIED);
+    }
+    near(carried(Role::Beside)(40.0), 0.0);
 }

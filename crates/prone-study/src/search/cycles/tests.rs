@@ -9,6 +9,7 @@ use prone_sim::RobotFiles;
 use super::super::candidates::Searched;
 use super::super::cycle_cost::{CycleAim, Merge};
 use super::super::cycle_jobs::base;
+use super::super::cycle_rules::Bounds;
 use super::super::cycle_rules::CycleRules;
 use super::super::setting::Role;
 use super::super::settings::{for_advance, for_steering, for_steering_confirmation};
@@ -89,7 +90,7 @@ fn a_steerable_search_finds_what_turns_to_the_left() {
         panic!("{refused}");
     };
     assert!(turned < 0.0, "{turned} rad");
-    let cycles = [(reversed(&left), f64::INFINITY)];
+    let cycles = [(reversed(&left), Bounds::NONE)];
     let confirmed = confirm::cycles(&cycles, &confirmation, &Unwatched).unwrap();
     assert!(!confirmed[0].holds);
 }
