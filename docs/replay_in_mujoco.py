@@ -9,17 +9,16 @@ This is a second implementation of what a record means. It uses the robot's mode
 the record, and nothing of prone:
 
     run.json             options of the engine, friction, and the law and figures of each motor
-    robot.compiled.json  nominal torque of each motor, motors that turn two joints, stops of a study
-    rows.csv             every 20 ms: pose of the root, angles and commands of the joints at that
-                         instant; heat and work of each motor since the row before
+    robot.compiled.json  nominal torque of each motor
+    start.json           pose, posture and speeds when the first pull begins
+    commands.csv         every command to the joints, with the time at which it was given
+    rows.csv             every 20 ms: pose of the root; heat and work of each motor since the row before
 
-The replay begins in the state of the record's second row and gets the recorded commands from there
-on. Nothing that was measured later is fed back. Of both, three things are measured between the same
-rows: advance along the heading with which a cycle begins, motor heat, and positive work.
-
-The two do not agree exactly, for two reasons. Rows are 20 ms apart while the motors get a command
-every 10 ms, so that every other command has to be guessed. And where limbs and trunk land on the
-floor, contacts amplify small differences: more so with stiff servos.
+The replay begins in that state and gets those commands. Nothing that was measured later is fed back.
+Of both, three things are measured between the same rows: advance along the heading with which a
+cycle begins, motor heat, and positive work. They do not agree to the digit: numbers in the tables are
+rounded, and where limbs and trunk land on the floor, contacts amplify small differences, more so with
+stiff servos.
 
 Exit code: 0 where they agree, 1 where advance or heat of the whole record differ by more than
 BOUNDS_PERCENT, 2 where this script cannot replay the record.
@@ -42,8 +41,7 @@ class Motor:
     """A motor and its controller, with the law and the figures of run.json. It may turn two joints."""
 
     def __init__(self, name, figures, robot):
-        shared = {joints[0]: joints for joints in robot["shared_motors"]}
-        self.joints = figures.get("joints") or shared.get(name, [name])
+        self.joints = figures["joints"]
         self.figures = figures
         self.nominal = next(joint["motor"]["nominal_nm"] for joint in robot["joints"] if joint["name"] == name)
 
@@ -67,7 +65,7 @@ class Motor:
         return control - f["back_emf_nms_rad"] / len(self.joints) * after
 
 
-def build_model(robot_xml, origin, robot, motors):
+def build_model(robot_xml, origin, motors):
     """The robot on a level floor, with an actuator for each joint that is named after the joint."""
     spec = mujoco.MjSpec.from_string(robot_xml)
     option = spec.option
@@ -98,32 +96,33 @@ def build_model(robot_xml, origin, robot, motors):
     # The back-EMF of a motor is damping of its joints. It acts with the speed after the step.
     for joint, damping in origin["joint_damping_nms_rad"].items():
         model.dof_damping[model.joint(joint).dofadr] = damping
-    if origin["stops"] == "the study's":
-        for stop in robot["study"]["stops"]:
-            model.joint(stop["joint"]).range = stop["range_rad"]
     return model
 
 
-def replay(model, motors, command_step, time, poses, commands):
-    """Pose at each row, and heat and work of all motors between the rows, from row 1 on."""
-    step = model.opt.timestep
-    step_of_row = np.rint((time - time[1]) / step).astype(int)
-    # A command is the posture that is to be reached when the next command comes. It is known at the
-    # rows, and between two rows taken on the straight line.
-    ends = time[1] + step * np.arange(1, step_of_row[-1] + 1)
-    reached = np.ceil(ends / command_step - 1e-6) * command_step
-    command = np.column_stack([np.interp(reached, time, column) for column in commands.T])
-
+def begin(model, start):
+    """The engine's state when the first pull begins."""
     data = mujoco.MjData(model)
-    data.qpos = poses[1]
-    # Speeds are not recorded; these are the mean ones between the rows before and after.
-    mujoco.mj_differentiatePos(model, data.qvel, time[2] - time[0], poses[0], poses[2])
-    joints = [[model.joint(name).id - 1 for name in motor.joints] for motor in motors]  # 0 is the root
+    joints = [model.joint(index).name for index in range(1, model.njnt)]  # 0 is the root
+    of = [start["angles_rad"][joint] for joint in joints]
+    data.qpos = [*start["position_m"], *start["quaternion_wxyz"], *of]
+    speeds = [start["speeds_rad_s"][joint] for joint in joints]
+    data.qvel = [*start["velocity_m_s"], *start["angular_velocity_rad_s"], *speeds]
+    return data
+
+
+def replay(model, motors, data, given, commands, time):
+    """Pose at the start and at each row, and heat and work of all motors over each row."""
+    step = model.opt.timestep
+    step_of_row = np.rint(np.concatenate([[0.0], time]) / step).astype(int)
+    # A command holds from the instant at which it is given until the next one.
+    of_step = np.searchsorted(given, step * np.arange(step_of_row[-1]) + 1e-6, side="right") - 1
+    joints = [[model.joint(name).id - 1 for name in motor.joints] for motor in motors]
     actuators = [[model.actuator(name).id for name in motor.joints] for motor in motors]
-    poses, heat, work = poses.copy(), np.zeros(len(time)), np.zeros(len(time))
-    for row in range(2, len(time)):
-        for k in range(step_of_row[row - 1], step_of_row[row]):
-            error, before = command[k] - data.qpos[7:], data.qvel[6:].copy()
+    poses = np.tile(data.qpos, (len(time) + 1, 1))
+    heat, work = np.zeros(len(time)), np.zeros(len(time))
+    for row in range(len(time)):
+        for k in range(step_of_row[row], step_of_row[row + 1]):
+            error, before = commands[of_step[k]] - data.qpos[7:], data.qvel[6:].copy()
             controls = [motor.control(error[its], before[its]) for motor, its in zip(motors, joints)]
             for its, control in zip(actuators, controls):
                 data.ctrl[its] = control
@@ -134,20 +133,19 @@ def replay(model, motors, command_step, time, poses, commands):
                 power = np.sum(torque * (before[its] + after[its]) / 2)
                 heat[row] += (torque.sum() / motor.nominal) ** 2 * step
                 work[row] += max(power, 0.0) * step
-        poses[row] = data.qpos
+        poses[row + 1] = data.qpos
     return poses, heat, work
 
 
 def by_cycle(cycle, poses, heat, work):
     """Advance, heat and work of each cycle and of all, between its last row and that of the one before."""
     sums = []
-    for number in np.unique(cycle[2:]):
+    for number in np.unique(cycle):
         rows = np.flatnonzero(cycle == number)
-        rows = rows[rows > 1]
-        begin, end = poses[rows[0] - 1], poses[rows[-1]]
-        w, x, y, z = begin[3:7]
+        start, end = poses[rows[0]], poses[rows[-1] + 1]  # pose 0 is the start, before the first row
+        w, x, y, z = start[3:7]
         heading = np.array([x * z + w * y, y * z - w * x])  # where the root's z axis, the trunk's top, points
-        advance = (end - begin)[:2] @ heading / np.linalg.norm(heading)
+        advance = (end - start)[:2] @ heading / np.linalg.norm(heading)
         sums.append([advance * 1e3, heat[rows].sum(), work[rows].sum()])
     return np.array([*sums, np.sum(sums, axis=0)])
 
@@ -172,27 +170,30 @@ def replay_and_measure(record, robot_xml):
     origin = run["origin"]
     robot = json.loads((record / "robot.compiled.json").read_text(encoding="utf-8"))["robot"]
     motors = [Motor(name, figures, robot) for name, figures in origin["servos"].items()]
-    model = build_model(robot_xml.read_text(encoding="utf-8"), origin, robot, motors)
+    model = build_model(robot_xml.read_text(encoding="utf-8"), origin, motors)
     if origin["engine"] != f"MuJoCo {mujoco.__version__}":
         print(f"recorded with {origin['engine']}, replayed with {mujoco.__version__}", file=sys.stderr)
 
-    with open(record / "rows.csv", newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
-    if len(rows) != run["record"]["rows"] or None in rows[-1].values():
-        raise ValueError("rows.csv was cut off")
+    def read(name, lines=None):
+        with open(record / name, newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        if None in rows[-1].values() or lines not in (None, len(rows)):
+            raise ValueError(f"{name} was cut off")
+        return lambda *columns: np.array([[float(row[column]) for column in columns] for row in rows])
 
-    def table(*columns):
-        return np.array([[float(row[column]) for column in columns] for row in rows])
-
-    def of_joints(suffix):
-        return table(*(model.joint(index).name + suffix for index in range(1, model.njnt)))
-
-    time, cycle = table("time_s", "cycle").T
-    place, turn = table("x_mm", "y_mm", "z_mm") / 1e3, table("qw", "qx", "qy", "qz")
-    poses = np.hstack([place, turn, of_joints("_rad")])
-    replayed = replay(model, motors, origin["command_step_s"], time, poses, of_joints("_cmd_rad"))
-    recorded = poses, of_joints("_heat_s").sum(axis=1), of_joints("_work_j").sum(axis=1)
-    return np.unique(cycle[2:]), by_cycle(cycle, *recorded), by_cycle(cycle, *replayed)
+    joints = [model.joint(index).name for index in range(1, model.njnt)]
+    rows, commands = read("rows.csv", run["record"]["rows"]), read("commands.csv")
+    time, cycle = rows("time_s", "cycle").T
+    data = begin(model, json.loads((record / "start.json").read_text(encoding="utf-8")))
+    poses = np.hstack([rows("x_mm", "y_mm", "z_mm") / 1e3, rows("qw", "qx", "qy", "qz")])
+    recorded = (
+        np.vstack([data.qpos[:7], poses]),
+        rows(*(joint + "_heat_s" for joint in joints)).sum(axis=1),
+        rows(*(joint + "_work_j" for joint in joints)).sum(axis=1),
+    )
+    sent = commands(*(joint + "_cmd_rad" for joint in joints))
+    replayed = replay(model, motors, data, commands("time_s")[:, 0], sent, time)
+    return np.unique(cycle), by_cycle(cycle, *recorded), by_cycle(cycle, *replayed)
 
 
 def main():

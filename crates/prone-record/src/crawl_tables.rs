@@ -8,8 +8,8 @@ use prone::steering::Bearing;
 
 use crate::crawl_summary::{CrawlSummary, CycleSummary, MotorSummary};
 use crate::record_columns::{
-    ANGLE_END, COMMAND_END, CONTACTS, FORCE, HEAT_END, LATERAL, PLACE, STAGES, TORQUE_END, TURN,
-    WORK_END, YAW, grounds, labels, tops,
+    ANGLE_END, COMMAND_END, CONTACTS, FORCE, HEAT_END, LATERAL, PLACE, STAGES, TIME, TORQUE_END,
+    TURN, WORK_END, YAW, grounds, labels, tops,
 };
 use crate::record_info::Part;
 use crate::tables::{file, maybe, number};
@@ -193,6 +193,20 @@ fn heat_and_work(robot: &Robot, effort: Option<&Effort>) -> (Vec<Option<f64>>, V
         }
     }
     (heat, work)
+}
+
+/// `commands.csv`: what the joints were sent, offsets apart, and when, s.
+pub fn commands(robot: &Robot, commands: &[(f64, JointAngles)]) -> Result<Vec<u8>, csv::Error> {
+    let names = robot.joints.iter();
+    let columns = names.map(|joint| format!("{}{COMMAND_END}", joint.name));
+    let header = std::iter::once(TIME.to_owned()).chain(columns);
+    let rows = commands.iter().map(|(time, command)| {
+        let angles = command.as_slice().iter().map(|angle| number(*angle, 6));
+        let mut cells = vec![number(*time, 5)];
+        cells.extend(angles);
+        cells
+    });
+    file(header, rows)
 }
 
 /// `contacts.csv`.

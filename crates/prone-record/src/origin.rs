@@ -63,6 +63,8 @@ pub enum ServoInfo {
     },
     /// The velocity servo of the published recordings.
     Velocity {
+        /// The joints that have one each.
+        joints: Vec<String>,
         /// Velocity gain, N·m·s/rad.
         gain_nms_rad: f64,
         /// Commanded speed per position error, 1/s.

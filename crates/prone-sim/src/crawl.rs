@@ -75,7 +75,7 @@ pub enum End {
 pub enum Detail {
     /// What adds up: cycles, heights, efforts, what the ground carries.
     Sums,
-    /// A row every [`ROW_STEP`] as well, and the position at each row.
+    /// A row every [`ROW_STEP`] as well, the position at each row, and every command.
     Rows,
 }
 
@@ -84,6 +84,12 @@ pub enum Detail {
 pub struct Crawl {
     /// Pose and posture when the first pull begins.
     pub start: Snapshot,
+    /// Speeds of that instant: of the root, m/s in the ground frame, its turn, rad/s in its own, and
+    /// of the joints, rad/s.
+    pub start_speeds: Vec<f64>,
+    /// Every command, with the time at which it was given, s since the first pull began; rad. Kept
+    /// with rows.
+    pub commands: Vec<(f64, JointAngles)>,
     /// One row per cycle.
     pub cycles: Vec<CycleRow>,
     /// What the motors did.

@@ -210,6 +210,12 @@ impl Simulation {
         Snapshot(self.data.qpos().to_vec())
     }
 
+    /// Speeds now: of the root, m/s in the ground frame, its turn, rad/s in its own, and of the
+    /// joints, rad/s.
+    pub(crate) fn speeds(&self) -> &[f64] {
+        self.data.qvel()
+    }
+
     /// The readings of the model's sensors, as of the beginning of the last engine step.
     pub(crate) fn sensor_readings(&self) -> &[f64] {
         self.data.sensordata()
@@ -256,6 +262,18 @@ impl Snapshot {
         let at = ground_from_root.origin().metres().to_array();
         let turn = real_first(ground_from_root.rotation());
         Self([&at, &turn[..], angles.as_slice()].concat())
+    }
+}
+
+impl Snapshot {
+    /// Pose of the root.
+    pub fn ground_from_root(&self) -> Transform<Ground, Root> {
+        root_pose(&self.0)
+    }
+
+    /// Joint angles, rad.
+    pub fn joint_angles(&self) -> &[f64] {
+        &self.0[FREE_JOINT..]
     }
 }
 

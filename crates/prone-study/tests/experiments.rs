@@ -75,13 +75,13 @@ fn a_pull_leaves_the_record_of_a_pull() {
 fn a_passage_names_the_cycle_that_fits() {
     let passage = PassageExperiment {
         robot: robot(),
-        cycles: ["low-175", "low-165"]
+        cycles: ["efficient", "far-200"]
             .map(|name| PassageCycle {
                 gait: gait(name),
                 origin: "shipped".to_owned(),
             })
             .into(),
-        ceiling_mm: 172.0,
+        ceiling_mm: 188.0,
         margin_mm: 1.0,
         search: None,
     };
@@ -90,11 +90,11 @@ fn a_passage_names_the_cycle_that_fits() {
         panic!("a passage was asked for");
     };
     assert!(outcome.passage.feasible);
-    assert_eq!(outcome.cycle.unwrap().pull.name, "low-165");
+    assert_eq!(outcome.cycle.unwrap().pull.name, "far-200");
     for (margin_mm, expected) in [
         (
-            172.0,
-            "a margin of 172 mm leaves no room under a ceiling of 172 mm",
+            188.0,
+            "a margin of 188 mm leaves no room under a ceiling of 188 mm",
         ),
         (f64::NAN, "a margin of NaN mm is outside 0 to 1000 mm"),
         (-50.0, "a margin of -50 mm is outside 0 to 1000 mm"),

@@ -85,7 +85,7 @@ fn rows_end_where_they_are_damaged() {
         (ROWS.replace(last, ""), "the table ends after 2 of 3 rows"),
         (
             with(",0.7,1,2,3,4,5,6,1", ""),
-            "13 cells, where the header has 19",
+            "13 cells, where the header has 21",
         ),
         (
             with("0.0600,1", "x,1"),
@@ -262,7 +262,7 @@ fn what_is_no_record_is_refused_with_a_reason() {
         said(&[(RUN_FILE, Some(&inside))]),
         said(&[(RUN_FILE, Some(&run(version, "9.9.9")))]),
         said(&[(RUN_FILE, Some(&run("\"record\"", "\"length\"")))]),
-        said(&[(RUN_FILE, Some(&run("\"format\": 2", "\"format\": 3")))]),
+        said(&[(RUN_FILE, Some(&run("\"format\": 3", "\"format\": 4")))]),
         said(&[(RUN_FILE, Some(&run("0.02", "0.0")))]),
         said(&[(RUN_FILE, Some(&run("[\"contacts\"]", "[]")))]),
         said(&[(MODEL_FILE, None)]),
@@ -334,7 +334,7 @@ fn a_record_is_read_as_it_is_written() {
         "gravity_m_s2": [0.0, 0.0, -9.81], "joint_damping_nms_rad": {"A": 0.1},
         "servos": {"A": {"law": "dc-motor", "joints": ["A"], "stiffness_nm_rad": 80.0,
         "supply_torque_nm": 1.0, "current_torque_nm": 2.0, "back_emf_nms_rad": 0.1,
-        "assumed": false}, "B": {"law": "velocity", "gain_nms_rad": 4.0, "rate_per_s": 20.0,
+        "assumed": false}, "B": {"law": "velocity", "joints": ["B"], "gain_nms_rad": 4.0, "rate_per_s": 20.0,
         "speed_rad_s": 3.0, "limit_nm": 30.0}}}"#;
     let info_of = |text: &str| RecordInfo::read(folder(&[(RUN_FILE, Some(text))]).path()).unwrap();
     let info = info_of(&run_json().replace(sample::ORIGIN, simulated));

@@ -215,6 +215,8 @@ impl Meter {
         Self {
             crawl: Crawl {
                 start: simulation.snapshot(),
+                start_speeds: simulation.speeds().to_vec(),
+                commands: Vec::new(),
                 cycles: Vec::new(),
                 effort: Effort::none(robot),
                 ground: Ground::default(),
@@ -241,6 +243,7 @@ impl Meter {
     pub(super) fn begin_cycle(&mut self, simulation: &Simulation, checked: &CheckedCycle) {
         if self.crawl.cycles.is_empty() {
             self.crawl.start = simulation.snapshot();
+            self.crawl.start_speeds = simulation.speeds().to_vec();
         }
         let zero = *self.begin.get_or_insert(simulation.time());
         let from = Bearing::of_prone(&simulation.ground_from_root());
@@ -292,6 +295,11 @@ impl Meter {
         };
         let dt = simulation.time_step();
         let since = simulation.time() - self.begin.unwrap_or_default();
+        let commands = &mut self.crawl.commands;
+        let is_new = commands.last().is_none_or(|(_, last)| last != command);
+        if self.detail == Detail::Rows && is_new {
+            commands.push((since - dt, command.clone()));
+        }
         self.touches.step(simulation, since);
         for effort in [&mut cycle.effort, &mut self.sums.effort] {
             effort.seconds += dt;

@@ -1,5 +1,9 @@
 //! The files of a record folder.
 
+use std::collections::BTreeMap;
+
+use serde_json::json;
+
 use prone::crawl::Stage;
 use prone::robot::Robot;
 use prone::steering::Bearing;
@@ -13,7 +17,7 @@ use prone_files::compiled_robot::{CompiledRobot, Violation};
 use prone_record::crawl_summary::CrawlSummary;
 use prone_record::crawl_tables as tables;
 use prone_record::crawl_tables::Instant;
-use prone_record::output::{Artefacts, RUN_FILE, json};
+use prone_record::output::{Artefacts, RUN_FILE, json as written};
 use prone_record::program::Program;
 use prone_record::record_info::{CrawlOptions, Options, RecordInfo};
 use prone_record::recorded::{CONTACTS_FILE, Command, MODEL_FILE, ROBOT_FILE, ROWS_FILE};
@@ -116,7 +120,10 @@ pub fn numbers(
     let info = record_info(robot, world, subject, program);
     let instants: Vec<Instant<'_>> = crawl.rows.iter().map(instant).collect();
     let mut artefacts = shown(robot, world, &info, start, &instants)?;
-    artefacts.insert("summary.json".into(), json(summary)?);
+    artefacts.insert("start.json".into(), written(&start_state(world, crawl))?);
+    let commands = tables::commands(world.robot(), &crawl.commands)?;
+    artefacts.insert("commands.csv".into(), commands);
+    artefacts.insert("summary.json".into(), written(summary)?);
     artefacts.insert("cycles.csv".into(), tables::cycles(summary)?);
     artefacts.insert("motors.csv".into(), tables::motors(summary)?);
     artefacts.insert(
@@ -125,6 +132,29 @@ pub fn numbers(
     );
     Ok(artefacts)
 }
+
+/// State of the robot when the first pull begins, from which a crawl can be simulated again.
+fn start_state(world: &World, crawl: &Crawl) -> serde_json::Value {
+    let root = crawl.start.ground_from_root();
+    let turn = root.rotation();
+    let names = || world.robot().joints.iter().map(|joint| &joint.name);
+    let by_joint = |values: &[f64]| -> BTreeMap<String, f64> {
+        names().cloned().zip(values.iter().copied()).collect()
+    };
+    let (of_root, of_joints) = crawl.start_speeds.split_at(ROOT_SPEEDS);
+    let (linear, angular) = of_root.split_at(ROOT_SPEEDS / 2);
+    json!({
+        "position_m": root.origin().metres().to_array(),
+        "quaternion_wxyz": [turn.w, turn.x, turn.y, turn.z],
+        "velocity_m_s": linear,
+        "angular_velocity_rad_s": angular,
+        "angles_rad": by_joint(crawl.start.joint_angles()),
+        "speeds_rad_s": by_joint(of_joints),
+    })
+}
+
+/// Speeds of the root: three of its place, three of its turn.
+const ROOT_SPEEDS: usize = 6;
 
 /// The files that replay and exports need.
 pub(super) fn shown(
@@ -135,8 +165,8 @@ pub(super) fn shown(
     instants: &[Instant<'_>],
 ) -> Result<Artefacts, RecordError> {
     let mut artefacts = Artefacts::new();
-    artefacts.insert(RUN_FILE.into(), json(info)?);
-    artefacts.insert(MODEL_FILE.into(), json(&model::describe(world))?);
+    artefacts.insert(RUN_FILE.into(), written(info)?);
+    artefacts.insert(MODEL_FILE.into(), written(&model::describe(world))?);
     let rows = tables::rows(world.robot(), start, instants)?;
     artefacts.insert(ROWS_FILE.into(), rows);
     let contacts = tables::contacts(world.robot(), world.obstacles(), instants)?;

@@ -124,19 +124,19 @@ fn simulated(world: &World, command_step_s: f64, engine: String) -> Simulated {
 }
 
 fn servo_info(robot: &Robot, WorldDrive { drive, servo }: &WorldDrive) -> ServoInfo {
+    let joints = drive.joints.iter();
+    let joints = joints.map(|id| robot.joints[id.0].name.clone()).collect();
     match servo {
-        WorldServo::Motor(motor) => {
-            let joints = drive.joints.iter();
-            ServoInfo::DcMotor {
-                joints: joints.map(|id| robot.joints[id.0].name.clone()).collect(),
-                stiffness_nm_rad: motor.stiffness,
-                supply_torque_nm: motor.supply_torque,
-                current_torque_nm: motor.current_torque,
-                back_emf_nms_rad: motor.back_emf,
-                assumed: motor.assumed,
-            }
-        }
+        WorldServo::Motor(motor) => ServoInfo::DcMotor {
+            joints,
+            stiffness_nm_rad: motor.stiffness,
+            supply_torque_nm: motor.supply_torque,
+            current_torque_nm: motor.current_torque,
+            back_emf_nms_rad: motor.back_emf,
+            assumed: motor.assumed,
+        },
         WorldServo::Velocity { law, gain, limit } => ServoInfo::Velocity {
+            joints,
             gain_nms_rad: *gain,
             rate_per_s: law.rate,
             speed_rad_s: law.speed,
