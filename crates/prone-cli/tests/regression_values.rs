@@ -2,7 +2,7 @@
 //! compares everything to the last one.
 //!
 //! Each file in `values/` says what is typed, and what then stands where in the printed JSON. The
-//! numbers were printed by the release build of commit b0ac467c60f4. A change that moves one on
+//! numbers were printed by the build that the commit of each file was made with. A change that moves one on
 //! purpose replaces it here, and says in the changelog why it moved.
 
 mod program;

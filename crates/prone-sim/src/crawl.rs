@@ -339,6 +339,4 @@ fn rear(simulation: &Simulation) -> f64 {
 }
 
 #[cfg(test)]
-mod balance;
-#[cfg(test)]
 mod tests;

@@ -35,12 +35,13 @@ Examples:
   prone crawl run thesis-nominal --rest-s 3 --json | jq .verdict
 
 Contact regime `locomotion`: friction 0.7 where nothing else is said, the robot's own motors, the
-manufacturer's effort and joint limits on. `verdict` is whether the motors of a robot could do it:
-continuous, limited (for minutes), or not on a robot. The robot starts with its foremost point at x = 0; a plate of --ceiling-mm begins
-50 mm ahead. The record folder appears when all is done, and replaces an earlier result in one step;
-all its files but timing.json are the same, byte for byte, for the same input, on any number of
-threads. Ctrl-C ends the simulation at once; pictures of a record that are being drawn are finished
-before the program ends. In both cases nothing is written. A second Ctrl-C ends the program at once.")]
+manufacturer's effort and joint limits on. The verdict says whether the motors of a robot could do
+it: continuous, limited (for minutes), or not on a robot. The robot starts with its foremost point at
+x = 0; a plate of --ceiling-mm begins 50 mm ahead. The record folder appears when all is done, and
+replaces an earlier result in one step; all its files but timing.json are the same, byte for byte, for
+the same input, on any number of threads. Ctrl-C ends the simulation at once; pictures of a record
+that are being drawn are finished before the program ends. In both cases nothing is written. A second
+Ctrl-C ends the program at once.")]
 pub(crate) struct CrawlRunArgs {
     #[command(flatten)]
     pub(crate) gait: GaitArg,

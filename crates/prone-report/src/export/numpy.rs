@@ -63,7 +63,10 @@ pub fn archive(record: &Recorded) -> Result<Vec<u8>, ArchiveError> {
             "ground_groups",
             texts(ContactGroup::ALL.iter().map(|group| group.name())),
         ),
-        ("ground_n", numbers(&[instants, 4], ground)),
+        (
+            "ground_n",
+            numbers(&[instants, ContactGroup::COUNT], ground),
+        ),
         ("contact_time_s", numbers(&[touches], contact_times)),
         ("contact_body", texts(bodies.map(|body| body.name.as_str()))),
         (
@@ -91,7 +94,14 @@ pub fn archive(record: &Recorded) -> Result<Vec<u8>, ArchiveError> {
 /// 64-bit floats, the last axis innermost.
 fn numbers(shape: &[usize], values: impl Iterator<Item = f64>) -> Vec<u8> {
     let mut file = head("<f8", shape);
+    let begin = file.len();
     file.extend(values.flat_map(f64::to_le_bytes));
+    let count = (file.len() - begin) / size_of::<f64>();
+    assert_eq!(
+        count,
+        shape.iter().product::<usize>(),
+        "an array of shape {shape:?}"
+    );
     file
 }
 

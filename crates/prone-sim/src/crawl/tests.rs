@@ -1,3 +1,5 @@
+mod balance;
+
 use prone::crawl::{SlopeAware, Straight};
 use prone::gait::cycle::CheckedCycle;
 use prone::port::{Knot, Segment, Stop as _};

@@ -9,7 +9,7 @@ use prone::regime::{CONTROL_STEP, MotorServo, Regime};
 use prone::statics::GRAVITY;
 use prone_files::shipped;
 
-use super::*;
+use super::super::*;
 use crate::{LoadedRobot, RobotFiles, World, pull};
 
 /// What motors and constraints did over the last cycle, and what the body had before and after it.
