@@ -126,7 +126,7 @@ fn print_verdict(s: &CrawlSummary, out: &mut dyn Write) -> Result<()> {
         let joint = joint.map_or_else(String::new, |joint| format!(" ({joint})"));
         let (measure, value) = (&reason.measure, reason.value);
         format!(
-            "{measure} {value:.2}{joint}, more than {}",
+            "{measure} {value:.3}{joint}, more than {}",
             reason.continuous
         )
     });

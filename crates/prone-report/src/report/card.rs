@@ -179,7 +179,7 @@ const STRAIGHT_DEG: f64 = 20.0;
 fn in_words(reason: &ReasonSummary) -> String {
     let joint = reason.joint.as_deref().map(|joint| format!(" ({joint})"));
     format!(
-        "{} {:.2}{}, more than {}",
+        "{} {:.3}{}, more than {}",
         reason.measure,
         reason.value,
         joint.unwrap_or_default(),
