@@ -1,9 +1,36 @@
 #!/usr/bin/env python3
-"""Checks the record of a crawl under a plate: past it, straight, without a touch."""
+"""Checks the record of a crawl under a plate: past it, straight, without a touch; its tables add up."""
 
+import csv
 import json
 import sys
 from pathlib import Path
+
+
+def table(path: Path) -> list[dict[str, str]]:
+    with path.open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def check_tables(folder: Path, summary: dict) -> None:
+    """Rows give heat and work of the summary, contacts the weight of the robot."""
+    rows = table(folder / "rows.csv")
+    for end, whole in (("_heat_s", summary["heat_s"]), ("_work_j", summary["work_j"])):
+        parts = (float(row[name]) for row in rows for name in row if name.endswith(end))
+        found = sum(parts)
+        # Numbers of the table have eight decimals.
+        assert abs(found - whole) < 1e-4 * whole, (end, found, whole)
+    times = [0.0] + [float(row["time_s"]) for row in rows]
+    lasted = {row["time_s"]: b - a for row, a, b in zip(rows, times, times[1:])}
+    force = [0.0, 0.0, 0.0]
+    for contact in table(folder / "contacts.csv"):
+        for axis, name in enumerate(("fx_n", "fy_n", "fz_n")):
+            force[axis] += float(contact[name]) * lasted[contact["time_s"]]
+    weight = 9.81 * json.loads((folder / "model.json").read_text())["mass_kg"]
+    for axis, needed in enumerate((0.0, 0.0, weight)):
+        assert abs(force[axis] / times[-1] - needed) < 0.01 * weight, (axis, force, weight)
+    ground = sum(group["mean_n"] for group in summary["ground"].values())
+    assert abs(ground - weight) < 0.01 * weight, (ground, weight)
 
 
 def main() -> None:
@@ -19,6 +46,7 @@ def main() -> None:
     steps = sum(cycle["advance_mm"] for cycle in summary["per_cycle"])
     # Each along its own heading, the whole along the first.
     assert abs(steps - summary["distance_mm"]) < 0.02 * steps, (steps, summary["distance_mm"])
+    check_tables(folder, summary)
     print(
         f"{summary['cycles']} cycles, {summary['mm_per_cycle']:.1f} mm each,"
         f" {summary['lateral_mm']:+.1f} mm off the line: as it should be"
