@@ -361,3 +361,91 @@ fn a_record_replaces_nothing_that_is_not_one() {
     assert!(message.contains("is not an earlier result"), "{message}");
     assert_eq!(fs::read_dir(home.path()).unwrap().count(), 1);
 }
+
+/// A rest between cycles counts: the motors do less in the mean, and as much in sum but for holding.
+#[test]
+fn a_rest_lowers_what_motors_feel() {
+    let run = |rest: &str| {
+        let gait = [
+            "--gait",
+            "thesis-nominal",
+            "--cycles",
+            "2",
+            "--rest-s",
+            rest,
+        ];
+        summary(&gait)
+    };
+    let (busy, rested) = (run("0"), run("3"));
+    let seconds = number(&rested, "time_s") - number(&busy, "time_s");
+    assert!((seconds - 6.0).abs() < 0.02, "{seconds}");
+    let felt = |run: &Value| {
+        let motors = run["joints"].as_array().unwrap();
+        let rms = motors.iter().map(|it| number(it, "rms_over_nominal"));
+        rms.fold(0.0, f64::max)
+    };
+    assert!(felt(&rested) < 0.9 * felt(&busy));
+    assert!(number(&rested, "heat_per_second") < 0.8 * number(&busy, "heat_per_second"));
+    let reasons = |run: &Value| run["verdict"]["reasons"].as_array().unwrap().len();
+    // Its plan is still too fast for what can go on for ever.
+    assert_eq!((reasons(&busy), reasons(&rested)), (2, 1));
+    assert_eq!(rested["verdict"]["duty"], "limited");
+}
+
+/// A robot whose motors are not known crawls; its heat is unknown, and no search of it begins.
+#[test]
+fn a_robot_without_motors_has_no_heat_and_no_verdict() {
+    let home = tempfile::tempdir().unwrap();
+    let robot = home.path().join("robot");
+    fs::create_dir(&robot).unwrap();
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots/nao/v4");
+    fs::copy(source.join("robot.xml"), robot.join("robot.xml")).unwrap();
+    let text = fs::read_to_string(source.join("robot.toml")).unwrap();
+    let text = text.replace("family = \"nao\"\n", "");
+    fs::write(robot.join("robot.toml"), text.replace("\nmotor = ", "\n#")).unwrap();
+    let robot = robot.to_str().unwrap();
+    let typed = ["--gait", "gentle", "--cycles", "1", "--robot", robot];
+    let run = summary(&typed);
+    for place in [
+        "/heat_s",
+        "/heat_per_metre_s",
+        "/heat_per_second",
+        "/winding_loss_j",
+    ] {
+        assert_eq!(run.pointer(place), Some(&Value::Null), "{place}");
+    }
+    assert_eq!(run.pointer("/joints/0/heat_s"), Some(&Value::Null));
+    assert_eq!(run["verdict"]["duty"], Value::Null);
+    let unknown = "joint HeadYaw has no motor with all its figures in robot.toml, without which nothing is known of heat";
+    assert_eq!(run["verdict"]["unknown"], unknown);
+    assert!(number(&run, "work_j") > 1.0);
+    let said = prone(&[&["crawl", "run"], &typed[..]].concat());
+    let said = String::from_utf8(said.stdout).unwrap();
+    assert!(said.contains("; motor heat unknown\n"), "{said}");
+    assert!(
+        said.contains(&format!("  on a robot: unknown, {unknown}\n")),
+        "{said}"
+    );
+    let out = home.path().join("out");
+    let refused = prone(&[
+        "optimize",
+        "--objective",
+        "heat",
+        "--source",
+        "cycle",
+        "--from",
+        "gentle",
+        "--seed",
+        "1",
+        "--budget",
+        "40",
+        "--robot",
+        robot,
+        "--out",
+        out.to_str().unwrap(),
+    ]);
+    assert_eq!(refused.status.code(), Some(2));
+    let message = String::from_utf8(refused.stderr).unwrap();
+    assert_eq!(message, format!("error: {unknown}\n"));
+    assert!(!out.exists());
+}

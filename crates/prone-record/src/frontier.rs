@@ -136,7 +136,7 @@ pub struct ConfirmedSetting {
     pub top_part: Option<String>,
     /// Heat per metre, s/m.
     pub heat_per_metre_s: Option<f64>,
-    /// Largest actuator torque over the manufacturer's effort limit.
+    /// Largest applied torque over the manufacturer's effort limit.
     pub peak_torque_over_rated: Option<f64>,
     /// Joint in which `peak_torque_over_rated` was reached.
     pub peak_joint: Option<String>,

@@ -314,7 +314,7 @@ fn regression_nominal_pull_of_five_seconds() {
     }
 }
 
-/// The motor of a joint holds up what hangs beyond it: the sign of **actuator torque**, from
+/// The motor of a joint holds up what hangs beyond it: the sign of **applied torque**, from
 /// nothing but weights and positions. Shins and feet are in the air in this posture.
 #[test]
 fn applied_torque_holds_the_legs_that_hang_in_the_air() {

@@ -14,7 +14,7 @@ use prone_record::pulls::{JOINTS, PullRecord, PullRow};
 /// Quantity and unit of every torque axis.
 pub(super) const TORQUE_LABEL: &str = "joint torque, N·m";
 /// What that quantity is; part of every torque caption.
-pub(super) const TORQUE_MEANING: &str = "Joint torque is minus the actuator torque of the right side, averaged over a control step: the sign of the published recordings.";
+pub(super) const TORQUE_MEANING: &str = "Joint torque is minus the applied torque of the right side, averaged over a control step: the sign of the published recordings.";
 
 /// Durations shown one panel each, s.
 const PANEL_DURATIONS_S: [f64; 6] = [1.0, 2.0, 3.0, 5.0, 7.0, 10.0];

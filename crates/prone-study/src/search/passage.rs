@@ -61,7 +61,7 @@ pub struct Tried {
     pub mm_per_cycle: f64,
     /// Speed, mm/s.
     pub mm_per_s: f64,
-    /// Largest actuator torque over the manufacturer's effort limit.
+    /// Largest applied torque over the manufacturer's effort limit.
     pub peak_torque_over_rated: f64,
     /// Name of the joint that reaches it.
     pub peak_joint: String,
