@@ -1,12 +1,12 @@
 //! Direct-current motors behind gears, under a position controller.
 //!
 //! At the joint, with gear efficiency η, stall torque τₛ and no-load speed ω₀ (both at the joint),
-//! stiffness K of the position controller, effort limit τ_max, and ω the joint's speed:
+//! stiffness K of the position controller, effort limit τₘ, and ω the joint's speed:
 //!
 //! ```text
 //! b  = η τₛ / ω₀                        back-EMF, N·m·s/rad                                (1)
 //! uᵥ = clip(K · error, ±η τₛ)           torque that the supply's voltage gives at rest     (2)
-//! u  = clip(uᵥ, −τ_max + b ω, τ_max + b ω)     current limit                               (3)
+//! u  = clip(uᵥ, −τₘ + b ω, τₘ + b ω)         current limit                               (3)
 //! τ  = u − b ω                          torque applied                                     (4)
 //! ```
 //!
@@ -66,7 +66,7 @@ pub struct DcServo {
     pub stiffness: f64,
     /// η τₛ, N·m.
     pub supply_torque: f64,
-    /// τ_max, N·m.
+    /// τₘ, N·m.
     pub current_torque: f64,
     /// b, N·m·s/rad.
     pub back_emf: f64,

@@ -173,6 +173,7 @@ pub const CONTROL_STEP: f64 = 0.05;
 
 impl Regime {
     /// The same regime with other motors.
+    #[must_use]
     pub const fn with_motors(self, motors: MotorServo) -> Self {
         Self {
             servo: Servo::DcMotor(motors),

@@ -312,14 +312,6 @@ fn limit_what_no_robot_has_is_refused_with_place_and_bound() {
         ("/robot/control/command_step_s", json!(0.0)),
         ("/robot/control/gear_efficiency", json!(1.1)),
         ("/robot/joints/0/servo_stiffness_nm_rad", json!(-1.0)),
-        ("/robot/joints/0/speed_limit_rad_s", json!(8.27)),
-        ("/robot/joints/2/effort_limit_nm", json!(3.0)),
-        ("/robot/shared_motors", json!([["LHipYawPitch"]])),
-        (
-            "/robot/shared_motors",
-            json!([["LHipYawPitch", "LHipYawPitch"]]),
-        ),
-        ("/robot/shared_motors", json!([["LHipYawPitch", "HipYaw"]])),
         ("/robot/control/steering/yaw", json!(-0.1)),
         ("/robot/control/uphill_rad", json!(1.6)),
         ("/robot/search/least_advance_m", json!(0.0)),
@@ -343,6 +335,28 @@ fn limit_what_no_robot_has_is_refused_with_place_and_bound() {
         format!("{pointer} = {value}\n    {said}\n")
     });
     insta::assert_snapshot!(lines.concat());
+}
+
+#[test]
+fn limit_motors_that_no_robot_has_are_refused_with_place_and_bound() {
+    let refusals = [
+        ("/robot/joints/0/speed_limit_rad_s", json!(8.27)),
+        ("/robot/joints/2/effort_limit_nm", json!(3.0)),
+        ("/robot/shared_motors", json!([["LHipYawPitch"]])),
+        (
+            "/robot/shared_motors",
+            json!([["LHipYawPitch", "LHipYawPitch"]]),
+        ),
+        ("/robot/shared_motors", json!([["LHipYawPitch", "HipYaw"]])),
+    ];
+    let lines = refusals.map(|(pointer, value)| refusal(&changed(pointer, value)) + "\n");
+    insta::assert_snapshot!(lines.concat(), @r#"
+    nao.json: robot.joints[0].speed_limit_rad_s: speed limit 8.27 rad/s of HeadYaw is above the no-load speed of its motor, 7.457 rad/s
+    nao.json: robot.shared_motors: joints that share the motor of "LHipYawPitch" have other figures
+    nao.json: robot.shared_motors[0]: a motor is shared by two joints or more
+    nao.json: robot.shared_motors[0][1]: "LHipYawPitch" is there twice
+    nao.json: robot.shared_motors[0][1]: "HipYaw" is none of the joints
+    "#);
 }
 
 /// Lists that are too long: what reads them takes time and memory by their length.

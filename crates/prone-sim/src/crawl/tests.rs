@@ -288,7 +288,7 @@ fn identity_applied_torque_is_that_of_the_motors_equations() {
             let found = simulation.applied_torque()[index];
             assert!((torque - found).abs() < 1e-9, "{}", joint.name);
             clipped += usize::from(wanted.abs() > stall);
-            limited += usize::from(told < supplied || told > supplied);
+            limited += usize::from((told - supplied).abs() > 0.0);
         }
     }
     assert!(clipped > 0 && limited > 0, "{clipped} {limited}");

@@ -241,16 +241,15 @@ mod tests {
         knock: f64,
         mut torque: impl FnMut(&mut MjData<Arc<MjModel>>) -> f64,
     ) -> f64 {
-        let step = data.model().opt().timestep;
-        let steps = (5.0 / step) as usize;
-        let last = steps / 10;
+        const STEPS: usize = 2000;
+        let last = STEPS / 10;
         let mut square = 0.0;
-        for index in 0..steps {
-            if index == steps / 5 {
+        for index in 0..STEPS {
+            if index == STEPS / 5 {
                 data.qvel_mut()[0] += knock;
             }
             let applied = torque(data);
-            if index >= steps - last {
+            if index >= STEPS - last {
                 square += applied * applied;
             }
         }

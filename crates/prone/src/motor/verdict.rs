@@ -201,6 +201,8 @@ mod tests {
     use crate::robot::Motor;
     use crate::robot::testing::two_armed;
 
+    type Change = fn(&mut MotorEffort, f64);
+
     fn robot() -> Robot {
         let mut robot = two_armed();
         for joint in &mut robot.joints {
@@ -232,11 +234,10 @@ mod tests {
     fn each_measure_decides_at_its_own_bounds() {
         assert_eq!(judged(0.0, |_| {}).duty, Duty::Continuous);
         let square = |over: f64| (over * 0.6 * 0.5) * (over * 0.6 * 0.5) * 10.0;
-        type Change = fn(&mut MotorEffort, f64);
         let changes: [(Measure, Change); 3] = [
             (Measure::SupplyClipped, |it, v| it.supply_clipped = v * 10.0),
             (Measure::CurrentLimited, |it, v| {
-                it.current_limited = v * 10.0
+                it.current_limited = v * 10.0;
             }),
             (Measure::PlannedSpeed, |it, v| it.planned_speed = v * 5.0),
         ];
