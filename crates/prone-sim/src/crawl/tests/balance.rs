@@ -10,7 +10,8 @@ use prone::statics::GRAVITY;
 use prone_files::shipped;
 
 use super::super::*;
-use crate::{LoadedRobot, RobotFiles, World, pull};
+use crate::engine_numbers::FREE_JOINT_SPEEDS;
+use crate::{LoadedRobot, RobotFiles, World, WorldDrive, WorldServo, pull};
 
 /// What motors and constraints did over the last cycle, and what the body had before and after it.
 #[derive(Debug, Clone, Default)]
@@ -57,6 +58,12 @@ impl Audit {
                 .zip(speeds)
                 .map(|(f, (a, b))| f * f64::midpoint(*a, *b));
             self.constraints += power.sum::<f64>() * dt;
+            // What joints are damped by besides their motors acts at the speed after the step.
+            let own = own_damping(simulation.world());
+            let speeds = self.before.iter().zip(&after).skip(FREE_JOINT_SPEEDS);
+            let lost = own.iter().zip(speeds);
+            let lost = lost.map(|(d, (a, b))| d * b * f64::midpoint(*a, *b));
+            self.constraints -= lost.sum::<f64>() * dt;
             for motor in simulation.motor_steps() {
                 self.motors += motor.power * dt;
                 self.positive += motor.power.max(0.0) * dt;
@@ -92,6 +99,19 @@ impl Audit {
             force - weight - momentum,
         ));
     }
+}
+
+/// Damping of the joints by the model itself, N·m·s/rad.
+fn own_damping(world: &World) -> Vec<f64> {
+    let mut damping = world.engine_options().joint_damping;
+    for WorldDrive { drive, servo } in world.drives() {
+        if let WorldServo::Motor(motor) = servo {
+            for joint in &drive.joints {
+                damping[joint.0] -= motor.back_emf / drive.sharers();
+            }
+        }
+    }
+    damping
 }
 
 /// Kinetic and potential energy, J. The engine works it out in data of its own, as looking must not
@@ -197,6 +217,27 @@ fn identity_energy_closes_and_forces_balance_over_a_cycle() {
             "{case}: {force} N are left over"
         );
     });
+}
+
+/// A model may damp its joints itself. That is not the motor's torque: energy closes where it is
+/// counted apart, and the motors do more.
+#[test]
+fn identity_a_models_own_damping_is_not_the_motors() {
+    let mut files = RobotFiles::shipped(&shipped::NAO);
+    let joint = r#"<joint armature=".005"/>"#;
+    assert!(files.mjcf.contains(joint));
+    files.mjcf = files
+        .mjcf
+        .replacen(joint, r#"<joint armature=".005" damping=".3"/>"#, 1);
+    let damped = LoadedRobot::load(files).unwrap();
+    let [damped, free] = [damped, nao()].map(|robot| {
+        let world = World::new(&robot, Regime::LOCOMOTION).unwrap();
+        audited(&world, "thesis-nominal")
+    });
+    let (energy, _) = damped.left.unwrap();
+    let share = energy / damped.positive;
+    assert!(share.abs() < 0.005, "{share:.5} of the work is lost");
+    assert!(damped.positive > 1.05 * free.positive);
 }
 
 /// The servos of the study, too, over a pull of the published gait.
