@@ -7,12 +7,14 @@
 //! follows something, or is followed by something, is [`crawler`], [`lie_down`] where the robot does
 //! not lie yet, and [`proceed`], which hands the robot back.
 
+mod ground;
 mod limbs;
 mod measure;
 mod touch;
 
+pub use ground::Ground;
 pub use limbs::{LimbsError, check_limbs};
-pub use measure::{Advance, CycleRow, Ground, Row};
+pub use measure::{Advance, CycleRow, Row};
 pub use touch::Touch;
 
 use glam::DVec3;

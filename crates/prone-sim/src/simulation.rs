@@ -130,10 +130,7 @@ impl Simulation {
                 *sum += torque;
             }
             contacts.add(self, Keep::EachBody);
-            effort.seconds += step;
-            for (motor, it) in effort.motors.iter_mut().zip(self.motor_steps()) {
-                motor.add_step(it, step);
-            }
+            effort.add_step(self.motor_steps(), step);
         }
         for sum in &mut torques {
             *sum /= steps as f64;

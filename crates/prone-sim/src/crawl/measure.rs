@@ -3,11 +3,12 @@
 use prone::crawl::Stage;
 use prone::frames::{Ground as GroundFrame, Root, Transform};
 use prone::gait::cycle::CheckedCycle;
-use prone::motor::{Effort, HEAD_CARRIES};
+use prone::motor::Effort;
 use prone::robot::{BodyPart, ContactGroup, Drive, JointAngles, Tops};
 use prone::scene::ContactForce;
 use prone::steering::Bearing;
 
+use super::ground::{BodyLoad, Ground};
 use super::touch::Touches;
 use super::{Crawl, Detail, ROW_STEP};
 use crate::driven::SimulatedRobot;
@@ -38,17 +39,6 @@ pub struct Row {
     pub ground_from_root: Transform<GroundFrame, Root>,
     /// Highest points.
     pub tops: Tops,
-}
-
-/// What the ground carried over a time, by [`ContactGroup::ALL`].
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Ground {
-    /// ∫ normal force dt, N·s.
-    pub impulse: [f64; ContactGroup::COUNT],
-    /// Largest mean over [`ROW_STEP`], N.
-    pub peak: [f64; ContactGroup::COUNT],
-    /// How long that mean was [`HEAD_CARRIES`] or more, s.
-    pub carried: [f64; ContactGroup::COUNT],
 }
 
 /// One cycle.
@@ -119,31 +109,6 @@ fn wrapped(angle: f64) -> f64 {
     (angle + PI).rem_euclid(TAU) - PI
 }
 
-impl Ground {
-    fn add_row(&mut self, forces: [f64; ContactGroup::COUNT], seconds: f64) {
-        for (group, force) in forces.into_iter().enumerate() {
-            self.impulse[group] += force * seconds;
-            self.peak[group] = self.peak[group].max(force);
-            if force >= HEAD_CARRIES {
-                self.carried[group] += seconds;
-            }
-        }
-    }
-
-    fn add(&mut self, other: &Self) {
-        for group in 0..ContactGroup::COUNT {
-            self.impulse[group] += other.impulse[group];
-            self.peak[group] = self.peak[group].max(other.peak[group]);
-            self.carried[group] += other.carried[group];
-        }
-    }
-
-    /// Largest mean force on the head over [`ROW_STEP`], N.
-    pub const fn head_peak(&self) -> f64 {
-        self.peak[ContactGroup::Head as usize]
-    }
-}
-
 /// Measures while a crawl goes on.
 pub(super) struct Meter {
     /// What is known of the crawl so far.
@@ -158,33 +123,6 @@ pub(super) struct Meter {
     /// What was commanded last.
     command: Option<JointAngles>,
     touches: Touches,
-}
-
-/// Sums over a stage of what the ground carries.
-#[derive(Debug, Clone, Copy, Default)]
-struct BodyLoad {
-    body: f64,
-    all: f64,
-}
-
-impl BodyLoad {
-    fn add(&mut self, forces: [f64; ContactGroup::COUNT]) {
-        for (group, force) in ContactGroup::ALL.into_iter().zip(forces) {
-            self.all += force;
-            if group.is_body() {
-                self.body += force;
-            }
-        }
-    }
-
-    /// Share on trunk, head and legs; 0 where nothing is carried.
-    fn share(self) -> f64 {
-        if self.all > 0.0 {
-            self.body / self.all
-        } else {
-            0.0
-        }
-    }
 }
 
 /// Sums since the last row.
@@ -302,15 +240,11 @@ impl Meter {
         }
         self.touches.step(simulation, since);
         for effort in [&mut cycle.effort, &mut self.sums.effort] {
-            effort.seconds += dt;
-            for (motor, step) in effort.motors.iter_mut().zip(simulation.motor_steps()) {
-                motor.add_step(step, dt);
-            }
+            effort.add_step(simulation.motor_steps(), dt);
             for (motor, speed) in effort.motors.iter_mut().zip(speeds.iter().flatten()) {
                 motor.planned_speed = motor.planned_speed.max(*speed);
             }
         }
-        self.loads[usize::from(stage == Stage::Recovery)].add(simulation.ground_contact());
         self.sums.stage = stage;
         self.sums.steps += 1;
         for (sum, torque) in self.sums.torque.iter_mut().zip(simulation.applied_torque()) {
@@ -320,7 +254,8 @@ impl Meter {
             Detail::Sums => Keep::Ground,
             Detail::Rows => Keep::EachBody,
         };
-        self.sums.contacts.add(simulation, keep);
+        let carried = self.sums.contacts.add(simulation, keep);
+        self.loads[usize::from(stage == Stage::Recovery)].add(carried);
         let steps_per_row = simulation.world().regime().steps_in(ROW_STEP);
         if simulation.steps().is_multiple_of(steps_per_row) {
             self.row(simulation);

@@ -60,13 +60,20 @@ pub(crate) struct ContactSums {
 }
 
 impl ContactSums {
-    /// Adds what the ground carries after an engine step, and where `each_body` what every body
-    /// meets.
-    pub(crate) fn add(&mut self, simulation: &Simulation, each_body: Keep) {
+    /// Adds what the ground carries after an engine step, which is returned by [`ContactGroup::ALL`],
+    /// N, and what every body meets where that is kept.
+    pub(crate) fn add(
+        &mut self,
+        simulation: &Simulation,
+        keep: Keep,
+    ) -> [f64; ContactGroup::COUNT] {
         self.steps += 1;
-        simulation.add_ground(&mut self.ground);
-        if each_body == Keep::Ground {
-            return;
+        let ground = simulation.ground_contact();
+        for (sum, force) in self.ground.iter_mut().zip(ground) {
+            *sum += force;
+        }
+        if keep == Keep::Ground {
+            return ground;
         }
         for contact in simulation.contacts() {
             let ContactForce {
@@ -81,6 +88,7 @@ impl ContactSums {
             *place += at.metres() * size;
             *weight += size;
         }
+        ground
     }
 
     /// Mean normal force of the ground by [`ContactGroup::ALL`], N.
@@ -117,21 +125,16 @@ impl Simulation {
         self.contacts().map(|contact| contact.force()).collect()
     }
 
-    /// What the ground carries: parts of the robot that press on one another do not count, nor
-    /// does what it bumps into.
-    fn add_ground(&self, sums: &mut [f64; ContactGroup::COUNT]) {
+    /// Normal force of the ground now by [`ContactGroup::ALL`], both sides together, N. Parts of the
+    /// robot that press on one another do not count, nor does what it bumps into.
+    pub fn ground_contact(&self) -> [f64; ContactGroup::COUNT] {
+        let mut forces = [0.0; ContactGroup::COUNT];
         for contact in self.contacts() {
             if self.world.is_ground(contact.with) {
                 let body = &self.robot().bodies[contact.body.0];
-                sums[body.contact_group as usize] += contact.normal();
+                forces[body.contact_group as usize] += contact.normal();
             }
         }
-    }
-
-    /// Normal force of the ground now by [`ContactGroup::ALL`], both sides together, N.
-    pub fn ground_contact(&self) -> [f64; ContactGroup::COUNT] {
-        let mut forces = [0.0; ContactGroup::COUNT];
-        self.add_ground(&mut forces);
         forces
     }
 

@@ -135,6 +135,14 @@ impl Effort {
         }
     }
 
+    /// Adds what every motor did in a step of some length, s.
+    pub fn add_step(&mut self, steps: &[MotorStep], seconds: f64) {
+        self.seconds += seconds;
+        for (motor, step) in self.motors.iter_mut().zip(steps) {
+            motor.add_step(step, seconds);
+        }
+    }
+
     /// Adds what was done in another time.
     pub fn add(&mut self, other: &Self) {
         self.seconds += other.seconds;
