@@ -18,6 +18,7 @@ pub(super) fn all(cards: &[Card], publication: &dyn Publication) -> Markup {
                 h2 { "Report card" }
                 (origins(cards, publication))
                 (figures(cards))
+                (verdicts(cards))
                 (joints(cards))
                 (rivals())
             }
@@ -28,7 +29,7 @@ pub(super) fn all(cards: &[Card], publication: &dyn Publication) -> Markup {
 /// A line of the table: what it says, and its value for a card.
 type Line = (&'static str, fn(&Card) -> String);
 
-const LINES: [Line; 19] = [
+const LINES: [Line; 18] = [
     ("path, time", |card| {
         let (path, time, cycles) = (card.path_mm, card.time_s, card.cycles);
         format!("{path:.0} mm, {time:.1} s, {cycles} cycles")
@@ -77,7 +78,6 @@ const LINES: [Line; 19] = [
     ("on a robot's motors", |card| {
         card.verdict.clone().unwrap_or_else(|| "unknown".to_owned())
     }),
-    ("because", |card| card.verdict_reasons.join("; ")),
     ("heat of all motors per second", |card| {
         optional(card.heat_per_second, |value| format!("{value:.2}"))
     }),
@@ -151,6 +151,22 @@ fn figures(cards: &[Card]) -> Markup {
                 @for card in cards { td { (value(card)) } }
             } } }
         } }
+    }
+}
+
+/// What speaks against going on for ever, crawl by crawl; nothing where nothing does.
+fn verdicts(cards: &[Card]) -> Markup {
+    let spoken = |card: &&Card| !card.verdict_reasons.is_empty();
+    html! {
+        @if cards.iter().any(|card| spoken(&card)) {
+            p { "What a robot's motors could not go on with:" }
+            ul { @for card in cards.iter().filter(spoken) {
+                li {
+                    (card.gait) " " small.run { "(" (card.run) ")" } ": "
+                    (card.verdict_reasons.join("; ")) "."
+                }
+            } }
+        }
     }
 }
 
