@@ -3,10 +3,11 @@
 use std::io::Write;
 
 use prone_record::experiment::RobotText;
+use prone_record::program::RobotInfo;
 use prone_record::resumption::Opening;
 use prone_thesis::published;
 use prone_thesis::reproduce::ReproduceExperiment;
-use prone_thesis::summary::Summary;
+use prone_thesis::summary::{CostRow, RatioRow, Summary};
 
 use crate::Failure;
 use crate::args::ReproduceArgs;
@@ -15,7 +16,9 @@ use crate::plan::{Plan, Work};
 pub(crate) fn plan(args: &ReproduceArgs) -> Result<Plan, Failure> {
     let files = crate::robot::files(args.robot.name())?;
     let robot = RobotText::from_files(&files);
-    let experiment = ReproduceExperiment::new(robot, args.durations.clone());
+    let recorded = files.recorded().map_err(Failure::input)?;
+    let recorded = recorded.as_ref().map(RobotText::from_files);
+    let experiment = ReproduceExperiment::new(robot, recorded, args.durations.clone());
     Ok(Plan {
         work: Work::Reproduction(Box::new(experiment)),
         out: Some(args.out.clone()),
@@ -27,33 +30,12 @@ pub(crate) fn plan(args: &ReproduceArgs) -> Result<Plan, Failure> {
 
 /// Costs and crawls, ours beside the published ones.
 pub(crate) fn print(summary: &Summary, out: &mut dyn Write) -> std::io::Result<()> {
-    writeln!(out, "cost of a pull, N²·m²·s: ours / published")?;
-    writeln!(
-        out,
-        "{:>8}{:>18}{:>18}{:>18}",
-        "duration",
-        published::NOMINAL,
-        published::OPTIMAL,
-        "ratio"
-    )?;
-    for row in &summary.ratios {
-        let cell = |gait: &str| {
-            let cost = summary
-                .costs
-                .iter()
-                .find(|cost| cost.gait == gait && (cost.duration_s - row.duration_s).abs() < 1e-9);
-            cost.map_or_else(String::new, |cost| {
-                beside(cost.cost_n2m2s, cost.published_n2m2s)
-            })
-        };
-        writeln!(
-            out,
-            "{:>6} s{:>18}{:>18}{:>18}",
-            row.duration_s,
-            cell(published::NOMINAL),
-            cell(published::OPTIMAL),
-            beside(row.ours, row.published)
-        )?;
+    let name = |robot: &RobotInfo| robot.name.clone();
+    let study_of = summary.study_of.as_ref().map(name).unwrap_or_default();
+    print_costs(&study_of, &summary.costs, &summary.ratios, out)?;
+    if let Some(beside) = &summary.beside {
+        writeln!(out)?;
+        print_costs(&name(&beside.robot), &beside.costs, &beside.ratios, out)?;
     }
     if !summary.table.is_empty() {
         writeln!(
@@ -72,6 +54,43 @@ pub(crate) fn print(summary: &Summary, out: &mut dyn Write) -> std::io::Result<(
             ours.time_s,
             theirs.time_s,
             row.touched()
+        )?;
+    }
+    Ok(())
+}
+
+/// Costs of a robot's pulls and their ratios, by duration.
+fn print_costs(
+    robot: &str,
+    costs: &[CostRow],
+    ratios: &[RatioRow],
+    out: &mut dyn Write,
+) -> std::io::Result<()> {
+    writeln!(out, "cost of a pull, N²·m²·s: ours / published; {robot}")?;
+    writeln!(
+        out,
+        "{:>8}{:>18}{:>18}{:>18}",
+        "duration",
+        published::NOMINAL,
+        published::OPTIMAL,
+        "ratio"
+    )?;
+    for row in ratios {
+        let cell = |gait: &str| {
+            let cost = costs
+                .iter()
+                .find(|cost| cost.gait == gait && (cost.duration_s - row.duration_s).abs() < 1e-9);
+            cost.map_or_else(String::new, |cost| {
+                beside(cost.cost_n2m2s, cost.published_n2m2s)
+            })
+        };
+        writeln!(
+            out,
+            "{:>6} s{:>18}{:>18}{:>18}",
+            row.duration_s,
+            cell(published::NOMINAL),
+            cell(published::OPTIMAL),
+            beside(row.ours, row.published)
         )?;
     }
     Ok(())

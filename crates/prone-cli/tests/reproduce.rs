@@ -53,7 +53,10 @@ fn results_are_the_same_on_any_number_of_threads_and_replace_each_other() {
     for name in [
         "torques/nominal-00.5s.csv",
         "torques/optimal-01.0s.csv",
+        "torques-v4/optimal-01.0s.csv",
         "costs.csv",
+        "costs-v4.csv",
+        "squeeze.csv",
         "agreement.csv",
         "summary.json",
         "run.json",
@@ -87,13 +90,85 @@ fn results_are_the_same_on_any_number_of_threads_and_replace_each_other() {
     assert!(header.starts_with(
         "time_s,cycle_percent,ankle_nm,knee_nm,hip_nm,shoulder_nm,ankle_cmd_rad,ankle_rad,"
     ));
-    assert!(header.ends_with(",toe_n,elbow_n,torso_n,leg_n,top_mm,head_top_mm"));
+    assert!(header.ends_with(",toe_n,elbow_n,torso_n,leg_n,top_mm,head_top_mm,squeeze_n"));
     assert_eq!(torques.lines().count(), 1 + 20, "one row per control step");
+    let beside = runs[0][Path::new("torques-v4/optimal-01.0s.csv")].clone();
+    let beside = String::from_utf8(beside).unwrap();
+    assert_eq!(beside.lines().next(), Some(header));
+    assert_ne!(beside, torques, "another robot's");
+
+    let summary: serde_json::Value =
+        serde_json::from_slice(&runs[0][Path::new("summary.json")]).unwrap();
+    assert_eq!(summary["study_of"]["version"], "scene");
+    assert_eq!(summary["crawl_of"]["version"], "v4");
+    assert_eq!(summary["beside"]["robot"]["version"], "v4");
 
     let report = String::from_utf8(runs[0][Path::new("report.html")].clone()).unwrap();
     for link in ["src=\"http", "href=\"http", "<script", "@import", "url(h"] {
         assert!(!report.contains(link), "{link} in the report");
     }
+}
+
+/// The recorded version itself has nothing beside it; a version of one's own family names itself.
+#[test]
+fn a_version_that_was_recorded_is_studied_alone() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path().join("result");
+    let out = folder.to_str().unwrap();
+    let run = |robot: &str| {
+        let done = prone(&[
+            "reproduce",
+            "--durations",
+            "0.5",
+            "--robot",
+            robot,
+            "--out",
+            out,
+        ]);
+        let message = String::from_utf8_lossy(&done.stderr);
+        assert!(done.status.success(), "{message}");
+        let names: Vec<_> = files(&folder).into_keys().collect();
+        let beside = |name: &&std::path::PathBuf| {
+            let name = name.to_str().unwrap();
+            name.starts_with("torques-") || name.starts_with("costs-")
+        };
+        names.iter().filter(beside).cloned().collect::<Vec<_>>()
+    };
+    assert_eq!(run("nao/scene"), Vec::<std::path::PathBuf>::new());
+    let v5 = [
+        "costs-v5.csv",
+        "torques-v5/nominal-00.5s.csv",
+        "torques-v5/optimal-00.5s.csv",
+    ];
+    assert_eq!(run("nao/v5"), v5.map(std::path::PathBuf::from));
+}
+
+#[test]
+fn a_recorded_version_that_is_not_there_is_refused_by_its_line() {
+    let home = tempfile::tempdir().unwrap();
+    let version = home.path().join("nao/v4");
+    fs::create_dir_all(&version).unwrap();
+    fs::write(version.join("robot.xml"), NAO.mjcf).unwrap();
+    fs::write(version.join("robot.toml"), NAO.toml).unwrap();
+    let family = "name = \"nao\"\ndefault = \"v4\"\nrecorded = \"attic\"\n";
+    fs::write(home.path().join("nao/family.toml"), family).unwrap();
+    let out = home.path().join("result");
+    let robot = home.path().join("nao");
+    let refused = prone(&[
+        "reproduce",
+        "--robot",
+        robot.to_str().unwrap(),
+        "--out",
+        out.to_str().unwrap(),
+    ]);
+    let message = String::from_utf8(refused.stderr).unwrap();
+    assert_eq!(refused.status.code(), Some(2), "{message}");
+    assert!(
+        message.contains("nao/family.toml:3:12: there is no "),
+        "{message}"
+    );
+    assert!(message.contains("nao/attic/robot.toml"), "{message}");
+    assert!(!out.exists());
 }
 
 #[test]

@@ -3,7 +3,7 @@
 //! ```toml
 //! name = "nao"       # as the versions' robot.toml name it
 //! default = "v4"     # the folder of the version that the family's own folder stands for
-//! recorded = "scene" # the folder of the version whose recordings are published, optional
+//! recorded = "scene" # the folder of the version whose torques were recorded and published; optional
 //!
 //! [defaults]         # which gaits the program uses, see [`crate::defaults`]
 //! ```
@@ -87,6 +87,11 @@ mod tests {
             let text = format!("name = \"nao\"\ndefault = \"{name}\"\n");
             assert!(
                 refused(&text).starts_with("family.toml:2:11: the name of a version is made of"),
+                "{name}"
+            );
+            let text = format!("name = \"nao\"\ndefault = \"v4\"\nrecorded = \"{name}\"\n");
+            assert!(
+                refused(&text).starts_with("family.toml:3:12: the name of a version is made of"),
                 "{name}"
             );
             let text = format!("default = \"v4\"\nname = \"{name}\"\n");

@@ -61,6 +61,8 @@ pub struct FamilyText {
     /// Name of the file, as shown to a user.
     file: String,
     text: String,
+    /// The folder that it was read from; `None` of a family that ships.
+    folder: Option<PathBuf>,
 }
 
 /// Why a robot's folder cannot be read.
@@ -106,6 +108,7 @@ impl RobotFiles {
             family_toml: family.map(|family| FamilyText {
                 file: family.toml_name(),
                 text: family.toml.to_owned(),
+                folder: None,
             }),
             gaits: family.map_or(Gaits::None, Gaits::Shipped),
             read: Vec::new(),
@@ -137,12 +140,48 @@ impl RobotFiles {
             return Err(RobotFolderError::FamilyAndRobot { folder });
         }
         let family = Family::read(folder)?;
-        let version = folder.join(family.table.default.get_ref());
+        let default = family.table.default.clone();
+        Self::read_version(family, &default)
+    }
+
+    /// Reads the version that a key of a family's file names.
+    fn read_version(family: Family, named: &Name) -> Result<Self, RobotFolderError> {
+        let version = family.folder.join(named.get_ref());
         if !version.join(ROBOT_FILE).exists() {
             let message = format!("there is no {}", version.join(ROBOT_FILE).display());
-            return Err(family.error(&family.table.default, &message));
+            return Err(family.error(named, &message));
         }
         Self::read_robot(&version, Some(family))
+    }
+
+    /// The version of its family whose torques were recorded and published; `None` where the family
+    /// names none, and for that version itself.
+    ///
+    /// # Errors
+    /// [`RobotFolderError`] where the family names a version that is not there, or that is malformed.
+    pub fn recorded(&self) -> Result<Option<Self>, RobotFolderError> {
+        let Some((text, version)) = self.family_toml.as_ref().zip(self.version.as_ref()) else {
+            return Ok(None);
+        };
+        let Some(recorded) = FamilyFile::parse(&text.file, &text.text)?.recorded else {
+            return Ok(None);
+        };
+        if *recorded.get_ref() == version.version {
+            return Ok(None);
+        }
+        if let Some(folder) = &text.folder {
+            return Self::read_version(Family::read(folder)?, &recorded).map(Some);
+        }
+        let name = format!("{}/{}", version.family, recorded.get_ref());
+        if let Some(source) = shipped::robot(&name) {
+            return Ok(Some(Self::shipped(source?)));
+        }
+        let source = Source {
+            file: &text.file,
+            text: &text.text,
+        };
+        let message = format!("no version {} ships", recorded.get_ref());
+        Err(source.error(recorded.span(), message).into())
     }
 
     /// Reads the robot of a folder; its family, where it is not known, is in the folder around it.
@@ -231,9 +270,15 @@ impl Family {
         let text = read_named(&path)?;
         let file = path.display().to_string();
         let table = FamilyFile::parse(&file, &text)?;
+        let folder = folder.to_owned();
+        let file = FamilyText {
+            file,
+            text,
+            folder: Some(folder.clone()),
+        };
         Ok(Self {
-            folder: folder.to_owned(),
-            file: FamilyText { file, text },
+            folder,
+            file,
             table,
         })
     }

@@ -366,6 +366,11 @@ mod tests {
                 assert_eq!(shipped.defaults().unwrap(), read.defaults().unwrap());
                 assert!(shipped.version.is_some());
                 assert_eq!(shipped.version, read.version);
+                let recorded = |files: &RobotFiles| {
+                    let recorded = files.recorded().unwrap();
+                    recorded.map(|files| (files.hash(), files.version))
+                };
+                assert_eq!(recorded(&shipped), recorded(&read));
             }
             let default = robot(family.name).unwrap().unwrap();
             let read = RobotFiles::read(&root.join(family.folder)).unwrap();
@@ -378,6 +383,16 @@ mod tests {
         assert_eq!(default_robot().unwrap(), &NAO);
         assert!(robot("nao/v0").is_none());
         assert!(robot("pepper").is_none());
+    }
+
+    #[test]
+    fn the_torques_of_one_version_were_recorded() {
+        let of_scene = RobotFiles::shipped(&NAO_OF_THE_SCENE);
+        for version in [&NAO, &NAO_V5] {
+            let recorded = RobotFiles::shipped(version).recorded().unwrap();
+            assert_eq!(recorded, Some(of_scene.clone()));
+        }
+        assert_eq!(of_scene.recorded().unwrap(), None);
     }
 
     #[test]

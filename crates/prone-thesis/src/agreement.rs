@@ -9,12 +9,13 @@ use std::borrow::Cow;
 use serde::{Deserialize, Serialize};
 
 use crate::published::TorqueBin;
-use prone_record::pulls::{JOINTS, PullRecord};
+use prone_record::pulls::{JOINTS, PullRecord, PullRow};
 
 /// Percent of the phase from which on the two are compared.
 pub const FROM_PERCENT: f64 = 20.0;
 
-const BINS: usize = 10;
+/// Into how many parts a phase is divided.
+pub(crate) const TENTHS: usize = 10;
 
 /// Agreement of one joint over one pull.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -45,12 +46,16 @@ fn of_pull(pull: &PullRecord, bins: &[TorqueBin]) -> Vec<Agreement> {
     if recorded.is_empty() {
         return Vec::new();
     }
-    let ours = mean_torques(pull);
+    let ours = tenth_means(pull, |_, row| Some(row.torque_nm));
     (0..JOINTS.len())
         .map(|joint| {
             let pairs: Vec<(f64, f64)> = recorded
                 .iter()
-                .map(|bin| (ours[bin_of(bin.from_percent)][joint], bin.torques()[joint]))
+                .map(|bin| {
+                    let ours = ours[tenth_of(bin.from_percent)];
+                    let ours = ours.map_or(f64::NAN, |torques| torques[joint]);
+                    (ours, bin.torques()[joint])
+                })
                 .collect();
             Agreement {
                 gait: pull.gait.clone(),
@@ -63,25 +68,29 @@ fn of_pull(pull: &PullRecord, bins: &[TorqueBin]) -> Vec<Agreement> {
         .collect()
 }
 
-/// Mean torque in each tenth of the phase, N·m; a row belongs to the tenth that holds the middle
-/// of its control step. NaN where a tenth holds no row.
-fn mean_torques(pull: &PullRecord) -> [[f64; 4]; BINS] {
+/// Means over each tenth of the phase of what a row has, by the row's place and the row; a row belongs
+/// to the tenth that holds the middle of its control step. `None` where no row of a tenth has it.
+pub(crate) fn tenth_means<const N: usize>(
+    pull: &PullRecord,
+    value: impl Fn(usize, &PullRow) -> Option<[f64; N]>,
+) -> [Option<[f64; N]>; TENTHS] {
     let step_percent = pull.rows.first().map_or(0.0, |row| row.cycle_percent);
-    let mut sums = [[0.0; 4]; BINS];
-    let mut counts = [0.0; BINS];
-    for row in &pull.rows {
-        let bin = bin_of(row.cycle_percent - 0.5 * step_percent);
-        counts[bin] += 1.0;
-        for (sum, torque) in sums[bin].iter_mut().zip(row.torque_nm) {
-            *sum += torque;
+    let mut sums = [[0.0; N]; TENTHS];
+    let mut counts = [0_u32; TENTHS];
+    for (index, row) in pull.rows.iter().enumerate() {
+        let Some(values) = value(index, row) else {
+            continue;
+        };
+        let tenth = tenth_of(row.cycle_percent - 0.5 * step_percent);
+        counts[tenth] += 1;
+        for (sum, value) in sums[tenth].iter_mut().zip(values) {
+            *sum += value;
         }
     }
-    for (sum, count) in sums.iter_mut().zip(counts) {
-        for sum in sum {
-            *sum /= count;
-        }
-    }
-    sums
+    std::array::from_fn(|tenth| {
+        let count = counts[tenth];
+        (count > 0).then(|| sums[tenth].map(|sum| sum / f64::from(count)))
+    })
 }
 
 #[expect(
@@ -89,14 +98,13 @@ fn mean_torques(pull: &PullRecord) -> [[f64; 4]; BINS] {
     clippy::cast_sign_loss,
     reason = "percent is between 0 and 100; the cast saturates otherwise"
 )]
-fn bin_of(percent: f64) -> usize {
-    ((percent / 10.0) as usize).min(BINS - 1)
+fn tenth_of(percent: f64) -> usize {
+    ((percent / 10.0) as usize).min(TENTHS - 1)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use prone_record::pulls::PullRow;
 
     fn pull(rows: usize, torque: impl Fn(f64) -> f64) -> PullRecord {
         PullRecord {
@@ -112,6 +120,7 @@ mod tests {
                         command_rad: [0.0; 7],
                         angle_rad: [0.0; 7],
                         contact_n: [0.0; 4],
+                        squeeze_n: 0.0,
                         top_mm: 0.0,
                         head_top_mm: 0.0,
                     }

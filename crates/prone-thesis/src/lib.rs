@@ -13,6 +13,7 @@ mod report;
 pub mod reproduce;
 pub mod robot_numbers;
 mod run_info;
+pub mod squeeze;
 pub mod summary;
 pub mod table_crawl;
 mod tables;

@@ -13,7 +13,7 @@ use prone::robot::Robot;
 use prone_files::{gait_file, scene_file, shipped};
 use prone_record::experiment::{GaitText, RobotText, SceneText, TextError};
 use prone_record::output::{Artefacts, RUN_FILE, json};
-use prone_record::program::Program;
+use prone_record::program::{Program, RobotInfo};
 use prone_record::recorded::Command;
 use prone_record::{contact_story, tables as record_tables};
 use prone_report::figure_list::FigureList;
@@ -34,7 +34,7 @@ use crate::run_info::RunInfo;
 use crate::summary::{self, Summary};
 use crate::table_crawl::{self, TableResult, TableStudy};
 use crate::torque_study::{self, Plan, PlanError, StudyError, TorqueStudy};
-use crate::{agreement, published, tables};
+use crate::{agreement, published, squeeze, tables};
 
 /// A finished reproduction.
 #[derive(Debug)]
@@ -134,8 +134,12 @@ const OWN_NAME: &str = "this folder";
 /// What is reproduced: the study's pulls at several durations, and its crawl under a table.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ReproduceExperiment {
-    /// The robot that takes part.
+    /// The robot that crawls, and pulls unless `recorded` does.
     pub robot: RobotText,
+    /// The version of its family whose torques were published, where that is another one: the study is
+    /// of it, and the costs and torques of `robot` are put beside.
+    #[serde(default)]
+    pub recorded: Option<RobotText>,
     /// How long pulls last, s, multiples of 0.1.
     pub durations_s: Vec<f64>,
     /// The study's pulls, in the order of the records.
@@ -154,9 +158,10 @@ pub struct TableTexts {
 }
 
 impl ReproduceExperiment {
-    /// The published study with a robot: its gaits and its table as they ship, also for a robot that
-    /// has gaits of its own of their names.
-    pub fn new(robot: RobotText, durations_s: Vec<f64>) -> Self {
+    /// The published study with a robot, and with the version of its family whose torques were
+    /// published where that is another one: its gaits and its table as they ship, also for a robot
+    /// that has gaits of its own of their names.
+    pub fn new(robot: RobotText, recorded: Option<RobotText>, durations_s: Vec<f64>) -> Self {
         let shipped_gait = |name: &str| {
             let gait = shipped::gait_file(name)?;
             Some(GaitText::new(&gait.file, &gait.text))
@@ -166,6 +171,7 @@ impl ReproduceExperiment {
         let cycle = shipped_gait(published::TABLE_CYCLE);
         Self {
             robot,
+            recorded,
             durations_s,
             gaits: published::GAITS
                 .into_iter()
@@ -180,7 +186,10 @@ impl ReproduceExperiment {
 
 /// The same, loaded.
 struct Study<'a> {
+    /// The robot of the study: the recorded version.
     robot: &'a LoadedRobot,
+    /// The robot that crawls; `None` where it is that of the study.
+    other: Option<&'a LoadedRobot>,
     plan: &'a Plan,
     /// The files of the gaits, by the gaits' names.
     gait_files: &'a BTreeMap<String, &'a GaitText>,
@@ -201,8 +210,12 @@ pub fn run(
         gaits.push(gait);
     }
     let plan = Plan::new(gaits, &experiment.durations_s)?;
-    let robot = LoadedRobot::load(experiment.robot.files().map_err(RunError::from)?)?;
+    let robot = load(&experiment.robot)?;
     plan.check(&World::new(&robot, Regime::TORQUE_STUDY)?)?;
+    let recorded = experiment.recorded.as_ref().map(load).transpose()?;
+    if let Some(recorded) = &recorded {
+        plan.check(&World::new(recorded, Regime::TORQUE_STUDY)?)?;
+    }
     let table = match &experiment.table {
         Some(texts) => table_study(robot.robot(), texts)?,
         None => None,
@@ -210,10 +223,12 @@ pub fn run(
     session.check_place()?;
     let pool = session.pool()?;
     let crawls = table.as_ref().map_or(0, |_| published::TABLE_CRAWLS.len());
-    watch.progress(&Progress::Simulating(plan.phases() + crawls));
+    let beside = recorded.as_ref().map_or(0, |_| plan.proper_phases());
+    watch.progress(&Progress::Simulating(plan.phases() + beside + crawls));
     let started = Instant::now();
     let study = Study {
-        robot: &robot,
+        robot: recorded.as_ref().unwrap_or(&robot),
+        other: recorded.as_ref().map(|_| &robot),
         plan: &plan,
         gait_files: &gait_files,
         table: table.as_ref(),
@@ -224,6 +239,10 @@ pub fn run(
     made.artefacts.insert("timing.json".into(), timing);
     session.publish(&made.artefacts, watch, || Ok(()))?;
     Ok(made)
+}
+
+fn load(robot: &RobotText) -> Result<LoadedRobot, ReproduceError> {
+    Ok(LoadedRobot::load(robot.files().map_err(RunError::from)?)?)
 }
 
 /// The crawl under the table, for a robot that has the joints which its cycle names.
@@ -241,21 +260,78 @@ fn table_study(robot: &Robot, texts: &TableTexts) -> Result<Option<TableStudy>, 
     }
 }
 
+/// Pictures of the shown pulls and of the crawl on its way.
+fn pictures(
+    world: &World,
+    study: &TorqueStudy,
+    info: &RunInfo,
+    table_result: Option<&TableResult>,
+    artefacts: &mut Artefacts,
+) -> Result<FigureList, ReproduceError> {
+    let photographed = study
+        .shown
+        .par_iter()
+        .map(|(gait, pull)| {
+            let number = frames_number(&gait.name);
+            frames::of(world, number, &gait.name, study.showcase_s, &pull.snapshots)
+        })
+        .collect::<Result<Vec<_>, _>>()?;
+    let mut list = FigureList::default();
+    if let Some((gait, pull)) = study.shown.first()
+        && let Some(first) = pull.snapshots.first()
+        && let Some(middle) = pull.snapshots.get(pull.snapshots.len() / 2)
+    {
+        let start = frames::start(world, &gait.name, &info.options.start_posture, first)?;
+        list.picture(artefacts, start.figure, start.png);
+        artefacts.insert("figures/crawl.png".into(), frames::cover(world, middle)?);
+    }
+    for frames in photographed {
+        list.picture(artefacts, frames.figure, frames.png);
+    }
+    if let Some(result) = table_result {
+        let (world, longest) = (&result.world, &result.longest);
+        let gait = longest
+            .cycles
+            .first()
+            .map_or("", |cycle| cycle.gait.as_str());
+        for frames in crawl::frames::on_its_way(world, gait, longest)? {
+            list.picture(artefacts, frames.figure, frames.png);
+        }
+    }
+    Ok(list)
+}
+
+/// The pulls of the study with another robot.
+fn beside(
+    robot: &LoadedRobot,
+    plan: &Plan,
+    watch: &dyn Watch,
+) -> Result<TorqueStudy, ReproduceError> {
+    let world = World::new(robot, Regime::TORQUE_STUDY)?;
+    Ok(torque_study::run_pulls(&world, plan, watch)?)
+}
+
 impl Study<'_> {
     /// Runs the study on the current rayon pool and makes every file of the result but `timing.json`.
     fn run(&self, program: &Program, watch: &dyn Watch) -> Result<Reproduction, ReproduceError> {
         let Study {
             robot, plan, table, ..
         } = *self;
+        let crawler = self.other.unwrap_or(robot);
         let world = World::new(robot, Regime::TORQUE_STUDY)?;
-        let (study, table_result) = rayon::join(
+        let (study, (beside, table_result)) = rayon::join(
             || torque_study::run(&world, plan, watch),
             || {
-                let result = table.map(|table| table_crawl::run(robot, table, watch));
-                result.transpose()
+                rayon::join(
+                    || self.other.map(|it| beside(it, plan, watch)).transpose(),
+                    || {
+                        let result = table.map(|table| table_crawl::run(crawler, table, watch));
+                        result.transpose()
+                    },
+                )
             },
         );
-        let (study, table_result) = (study?, table_result?);
+        let (study, beside, table_result) = (study?, beside?, table_result?);
         let bins = published::torque_bins()?;
         let agreement = agreement::of(&study.pulls, &bins);
         let stories = study
@@ -269,17 +345,41 @@ impl Study<'_> {
             .map_or_else(Vec::new, |result| result.experiments.clone());
         let showcase = PhaseDuration::new(study.showcase_s)?;
         let numbers = RobotNumbers::new(world.robot(), plan.gaits(), showcase)?;
+        let squeezes = squeeze::of(world.robot(), &study.pulls, &bins);
         let summary = Summary {
             robot: Some(numbers),
+            study_of: Some(RobotInfo::of(robot.robot(), robot.files())),
+            crawl_of: table.map(|_| RobotInfo::of(crawler.robot(), crawler.files())),
+            beside: self.other.zip(beside.as_ref()).map(|(other, study)| {
+                let agreement = agreement::of(&study.pulls, &bins);
+                summary::Beside::new(other, study, agreement)
+            }),
+            squeeze_ratios: squeeze::ratios(&squeezes),
+            squeeze: squeezes,
             ..summary::of(&study, agreement, stories, experiments)
         };
-        let info = RunInfo::of(robot, &world, plan, table.map(TableStudy::info), program);
+        let info = RunInfo {
+            crawler: self
+                .other
+                .map(|other| RobotInfo::of(other.robot(), other.files())),
+            ..RunInfo::of(robot, &world, plan, table.map(TableStudy::info), program)
+        };
 
         let mut artefacts = Artefacts::new();
         for pull in &study.pulls {
             let name = format!("torques/{}", record_tables::torque_file_name(pull));
             artefacts.insert(name, record_tables::torques(pull)?);
         }
+        if let Some((other, beside)) = summary.beside.as_ref().zip(beside.as_ref()) {
+            let name = other.file_suffix();
+            for pull in &beside.pulls {
+                let name = format!("torques-{name}/{}", record_tables::torque_file_name(pull));
+                artefacts.insert(name, record_tables::torques(pull)?);
+            }
+            let costs = record_tables::costs(&beside.costs)?;
+            artefacts.insert(format!("costs-{name}.csv"), costs);
+        }
+        artefacts.insert("squeeze.csv".into(), tables::squeeze(&summary.squeeze)?);
         artefacts.insert("chains.csv".into(), record_tables::chains(&study.chains)?);
         artefacts.insert("costs.csv".into(), record_tables::costs(&study.costs)?);
         artefacts.insert(
@@ -290,45 +390,10 @@ impl Study<'_> {
         artefacts.insert(RUN_FILE.into(), json(&info)?);
         artefacts.extend(pull_records(self, &world, &study, program)?);
         if let Some((table, result)) = table.zip(table_result.as_ref()) {
-            artefacts.extend(crawl_record(robot, table, result, program)?);
+            artefacts.extend(crawl_record(crawler, table, result, program)?);
         }
 
-        let photographed = study
-            .shown
-            .par_iter()
-            .map(|(gait, pull)| {
-                let number = frames_number(&gait.name);
-                frames::of(
-                    &world,
-                    number,
-                    &gait.name,
-                    study.showcase_s,
-                    &pull.snapshots,
-                )
-            })
-            .collect::<Result<Vec<_>, _>>()?;
-        let mut list = FigureList::default();
-        if let Some((gait, pull)) = study.shown.first()
-            && let Some(first) = pull.snapshots.first()
-            && let Some(middle) = pull.snapshots.get(pull.snapshots.len() / 2)
-        {
-            let start = frames::start(&world, &gait.name, &info.options.start_posture, first)?;
-            list.picture(&mut artefacts, start.figure, start.png);
-            artefacts.insert("figures/crawl.png".into(), frames::cover(&world, middle)?);
-        }
-        for frames in photographed {
-            list.picture(&mut artefacts, frames.figure, frames.png);
-        }
-        if let Some(result) = &table_result {
-            let (world, longest) = (&result.world, &result.longest);
-            let gait = longest
-                .cycles
-                .first()
-                .map_or("", |cycle| cycle.gait.as_str());
-            for frames in crawl::frames::on_its_way(world, gait, longest)? {
-                list.picture(&mut artefacts, frames.figure, frames.png);
-            }
-        }
+        let list = pictures(&world, &study, &info, table_result.as_ref(), &mut artefacts)?;
         list.finish(&mut artefacts)?;
         // The drawings are those of the report, made from the records as they will be read again.
         let report = Report::from_artefacts(OWN_NAME, &artefacts, &Thesis)?;
@@ -338,7 +403,7 @@ impl Study<'_> {
         Ok(Reproduction {
             artefacts,
             summary,
-            engine_steps: study.engine_steps + crawling,
+            engine_steps: study.engine_steps + crawling + beside.map_or(0, |it| it.engine_steps),
         })
     }
 }

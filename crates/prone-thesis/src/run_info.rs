@@ -17,7 +17,11 @@ use crate::torque_study::Plan;
 pub(crate) struct RunInfo {
     #[serde(flatten)]
     pub(crate) head: Head,
+    /// The robot of the study.
     pub(crate) robot: RobotInfo,
+    /// The robot that crawls, where it is another version.
+    #[serde(default)]
+    pub(crate) crawler: Option<RobotInfo>,
     pub(crate) options: Options,
 }
 
@@ -84,6 +88,7 @@ impl RunInfo {
                 Some(prone_sim::engine_version()),
             ),
             robot: RobotInfo::of(robot.robot(), robot.files()),
+            crawler: None,
             options: Options {
                 gaits: plan
                     .gaits()

@@ -7,10 +7,13 @@ use serde::{Deserialize, Serialize};
 use crate::agreement::Agreement;
 use crate::published::{self, TABLE_CRAWLS};
 use crate::robot_numbers::RobotNumbers;
+use crate::squeeze::{Squeeze, SqueezeRatio};
 use crate::table_crawl::TableExperiment;
 use crate::torque_study::TorqueStudy;
 use prone_record::contact_story::ContactStory;
+use prone_record::program::RobotInfo;
 use prone_record::pulls::{ChainRecord, ChainSample, ClampRecord, CostRecord, RunRecord};
+use prone_sim::LoadedRobot;
 
 /// Everything that the report's tables show.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -37,6 +40,54 @@ pub struct Summary {
     pub table: Vec<TableExperiment>,
     /// Numbers of the robot that the report's sentences have.
     pub robot: Option<RobotNumbers>,
+    /// The robot of the study: all but `table` and `beside`.
+    #[serde(default)]
+    pub study_of: Option<RobotInfo>,
+    /// The robot that crawled under the table.
+    #[serde(default)]
+    pub crawl_of: Option<RobotInfo>,
+    /// The same pulls of the version that crawls, where the study is of another one.
+    #[serde(default)]
+    pub beside: Option<Beside>,
+    /// Internal squeeze of each pull in which the chain comes to carry the body, ours and published.
+    #[serde(default)]
+    pub squeeze: Vec<Squeeze>,
+    /// Optimal over nominal with and without it.
+    #[serde(default)]
+    pub squeeze_ratios: Vec<SqueezeRatio>,
+}
+
+/// The pulls of a version of the robot that the published torques are not of.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Beside {
+    /// Which robot.
+    pub robot: RobotInfo,
+    /// Its mass, kg.
+    pub mass_kg: f64,
+    /// Cost of each pull, beside the published one.
+    pub costs: Vec<CostRow>,
+    /// Cost of the optimal gait over the nominal one's, by duration.
+    pub ratios: Vec<RatioRow>,
+    /// Agreement with the recorded torques.
+    pub agreement: Vec<Agreement>,
+}
+
+impl Beside {
+    /// Of a robot and its pulls.
+    pub fn new(robot: &LoadedRobot, study: &TorqueStudy, agreement: Vec<Agreement>) -> Self {
+        Self {
+            robot: RobotInfo::of(robot.robot(), robot.files()),
+            mass_kg: robot.robot().mass(),
+            costs: study.costs.iter().map(cost_row).collect(),
+            ratios: ratios(&study.costs),
+            agreement,
+        }
+    }
+
+    /// What its files carry in their names.
+    pub fn file_suffix(&self) -> &str {
+        self.robot.version.as_deref().unwrap_or("other")
+    }
 }
 
 /// A cost beside the published one.
@@ -122,6 +173,11 @@ pub fn of(
         mappings: mappings(study),
         table,
         robot: None,
+        study_of: None,
+        crawl_of: None,
+        beside: None,
+        squeeze: Vec::new(),
+        squeeze_ratios: Vec::new(),
     }
 }
 

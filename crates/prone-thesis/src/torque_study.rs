@@ -102,8 +102,26 @@ impl Job {
 
 /// Runs the study on the current rayon pool.
 pub fn run(world: &World, plan: &Plan, watch: &dyn Watch) -> Result<TorqueStudy, StudyError> {
+    run_jobs(world, plan, &jobs(plan), watch)
+}
+
+/// Runs its pulls alone: no pictures, and no comparison of mappings.
+pub fn run_pulls(world: &World, plan: &Plan, watch: &dyn Watch) -> Result<TorqueStudy, StudyError> {
+    let jobs = jobs(plan).into_iter().filter(|job| job.proper);
+    let unseen = |job| Job {
+        showcase: false,
+        ..job
+    };
+    run_jobs(world, plan, &jobs.map(unseen).collect::<Vec<_>>(), watch)
+}
+
+fn run_jobs(
+    world: &World,
+    plan: &Plan,
+    jobs: &[Job],
+    watch: &dyn Watch,
+) -> Result<TorqueStudy, StudyError> {
     let showcase = plan.showcase;
-    let jobs = jobs(plan);
     let results: Vec<Result<Pull, StudyError>> = jobs
         .par_iter()
         .with_max_len(1)

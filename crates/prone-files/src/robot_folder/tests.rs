@@ -173,6 +173,35 @@ fn versions_and_families_name_one_another() {
 }
 
 #[test]
+fn the_recorded_version_is_another_one_that_is_there() {
+    let of = |more: &str, version: &str| {
+        let home = family(more);
+        let files = RobotFiles::read(&home.path().join(version)).unwrap();
+        let recorded = files
+            .recorded()
+            .map(|files| files.and_then(|it| it.version));
+        let recorded = recorded.map(|version| version.map(|it| it.version));
+        let message = recorded.as_ref().err().map(ToString::to_string);
+        let home = format!("{}/", home.path().display());
+        (
+            recorded.ok().flatten(),
+            message.map(|message| message.replace(&home, "")),
+        )
+    };
+    let v5 = "recorded = \"v5\"\n";
+    for path in ["nao", "nao/v4"] {
+        assert_eq!(of(v5, path), (Some("v5".to_owned()), None));
+    }
+    assert_eq!(of(v5, "nao/v5"), (None, None));
+    assert_eq!(of("", "nao"), (None, None));
+    let missing = "nao/family.toml:3:12: there is no nao/scene/robot.toml";
+    assert_eq!(
+        of("recorded = \"scene\"\n", "nao"),
+        (None, Some(missing.to_owned()))
+    );
+}
+
+#[test]
 fn defaults_name_gaits_that_there_are() {
     for (line, expected) in [
         (

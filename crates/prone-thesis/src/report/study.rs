@@ -71,6 +71,7 @@ impl PublishedRun for StudyRun {
         let family = self.info.robot.family.as_deref();
         html! {
             (sections::costs(&self.summary))
+            (sections::squeeze(&self.summary))
             (sections::agreement(&self.summary))
             (sections::contacts(&self.summary, &numbers))
             (sections::stride(&self.summary, &numbers))

@@ -81,7 +81,12 @@ impl Plan {
     /// How many phases are simulated: every gait at every duration, and once more with the other
     /// mapping.
     pub fn phases(&self) -> usize {
-        self.gaits.len() * (self.durations.len() + 1)
+        self.proper_phases() + self.gaits.len()
+    }
+
+    /// How many of them are the study's pulls: every gait at every duration.
+    pub fn proper_phases(&self) -> usize {
+        self.gaits.len() * self.durations.len()
     }
 
     /// The gaits, in the order of the records.
