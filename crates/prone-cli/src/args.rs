@@ -38,7 +38,7 @@ Examples:
                                           search a better gait
   prone cost nominal --objective heat --source dynamics
                                           tell what a gait costs
-  prone crawl run low-175 --ceiling-mm 178 --length-m 1.5 --until-past
+  prone crawl run low-175 --ceiling-mm 190 --length-m 1.5 --until-past
                                           crawl under a plate
   prone crawl under --ceiling-mm 180      whether the robot gets under it, how, and how fast
   prone crawl run low-175 --record out/low

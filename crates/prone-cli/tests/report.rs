@@ -143,7 +143,10 @@ fn a_page_loads_nothing_and_says_what_it_shows() {
     let frames = elements(&page, "iframe");
     assert_eq!(frames.len(), 1);
     assert!(frames[0].contains("sandbox=\"allow-scripts\""));
-    assert!(page.contains("Text without a source is about NAO H25 V4."));
+    // The study is of the scene's robot, the crawl of the V4.
+    let about =
+        "Text without a source is about NAO of the recording scene (approximation) and NAO H25 V4.";
+    assert!(page.contains(about));
     // The crawl that was named, and in the report of a reproduction one gait beside the other.
     assert!(frames[0].contains("title=\"Replay: low-175 · under-plate\""));
     let own = text(Path::new(&results().reproduction).join("report.html"));

@@ -28,7 +28,7 @@ pub(crate) enum CrawlCommand {
 #[command(after_help = "\
 Examples:
   prone crawl run low-175
-  prone crawl run low-175 --ceiling-mm 178 --length-m 1.5 --until-past --heading-hold
+  prone crawl run low-175 --ceiling-mm 190 --length-m 1.5 --until-past --heading-hold
   prone crawl run low-175 --turn-deg-per-cycle 12 --cycles 10 --json | jq .yaw_deg
   prone crawl run thesis-nominal --scene table --cycles 25 --record out/table
   prone crawl run hip-10 --uphill low-175 --scene ramp --seed 1 --cycles 20
