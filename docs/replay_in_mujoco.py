@@ -3,7 +3,7 @@
 
     pip install mujoco==3.17.0 numpy
     prone crawl run thesis-nominal --cycles 3 --record out/nominal
-    python docs/replay_in_mujoco.py out/nominal --robot-xml robots/nao/v4/robot.xml
+    python docs/replay_in_mujoco.py out/nominal
 
 This is a second implementation of what a record means. It uses the robot's model and these files of
 the record, and nothing of prone:
@@ -33,7 +33,8 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-NAO = Path(__file__).resolve().parents[1] / "robots/nao/v4/robot.xml"
+FORMAT = 3
+ROOT = Path(__file__).resolve().parents[1]
 BOUNDS_PERCENT = {"advance, mm": 1.0, "heat, s": 2.0, "work, J": np.inf}
 
 
@@ -41,9 +42,14 @@ class Motor:
     """A motor and its controller, with the law and the figures of run.json. It may turn two joints."""
 
     def __init__(self, name, figures, robot):
+        if figures["law"] not in ("dc-motor", "velocity"):
+            raise ValueError(f"the law of {name} is {figures['law']}")
+        motor = next(joint["motor"] for joint in robot["joints"] if joint["name"] == name)
+        if motor is None:
+            raise ValueError(f"{name} has no figures of a motor, and no heat")
         self.joints = figures["joints"]
         self.figures = figures
-        self.nominal = next(joint["motor"]["nominal_nm"] for joint in robot["joints"] if joint["name"] == name)
+        self.nominal = motor["nominal_nm"]
 
     def control(self, error, speed):
         """What its actuators are told before an engine step, from position errors and speeds."""
@@ -152,7 +158,13 @@ def by_cycle(cycle, poses, heat, work):
 
 def check(run):
     """Refuses what this script does not model."""
+    if run["record"].get("format") != FORMAT:
+        raise ValueError(f"its format is {run['record'].get('format')}, and this script reads {FORMAT}")
+    if run["command"] != "crawl run":
+        raise ValueError(f"it is no crawl: `prone {run['command']}` wrote it")
     origin, scene = run["origin"], run["scene"]
+    if not origin.get("time_step_s", 1.0) > 0:
+        raise ValueError(f"its engine step is {origin['time_step_s']} s")
     if origin["kind"] != "simulated":
         raise ValueError(f"it was not simulated: its origin is {origin['kind']}")
     if scene["obstacles"] or scene["rough"] or scene["slope_deg"]:
@@ -163,28 +175,57 @@ def check(run):
         raise ValueError("its joints have calibration errors, which recorded commands are without")
 
 
+def read_json(path):
+    """What a file of the record holds; an error names the file."""
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except ValueError as problem:
+        raise ValueError(f"{path.name}: {problem}") from problem
+
+
 def replay_and_measure(record, robot_xml):
     """Cycle numbers, and advance, heat and work by cycle and of all: recorded and replayed."""
-    run = json.loads((record / "run.json").read_text(encoding="utf-8"))
+    run = read_json(record / "run.json")
     check(run)
     origin = run["origin"]
-    robot = json.loads((record / "robot.compiled.json").read_text(encoding="utf-8"))["robot"]
+    robot = read_json(record / "robot.compiled.json")["robot"]
     motors = [Motor(name, figures, robot) for name, figures in origin["servos"].items()]
+    if robot_xml is None:
+        robot_xml = ROOT / run["robot"]["folder"] / "robot.xml"
     model = build_model(robot_xml.read_text(encoding="utf-8"), origin, motors)
+    recorded_kg, kg = sum(body["mass_kg"] for body in robot["bodies"]), model.body_mass.sum()
+    if abs(kg - recorded_kg) > 1e-6:
+        raise ValueError(f"its robot weighs {recorded_kg:.4f} kg, and that of {robot_xml} {kg:.4f} kg: see --robot-xml")
     if origin["engine"] != f"MuJoCo {mujoco.__version__}":
         print(f"recorded with {origin['engine']}, replayed with {mujoco.__version__}", file=sys.stderr)
 
     def read(name, lines=None):
         with open(record / name, newline="", encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
-        if None in rows[-1].values() or lines not in (None, len(rows)):
+        if not rows or None in rows[-1].values() or lines not in (None, len(rows)):
             raise ValueError(f"{name} was cut off")
-        return lambda *columns: np.array([[float(row[column]) for column in columns] for row in rows])
+
+        def numbers(*columns):
+            try:
+                values = np.array([[float(row[column]) for column in columns] for row in rows])
+            except ValueError as problem:
+                raise ValueError(f"{name}: {problem}") from problem
+            if not np.isfinite(values).all():
+                raise ValueError(f"{name} has what is no number in {', '.join(columns[:3])} …")
+            return values
+
+        return numbers
 
     joints = [model.joint(index).name for index in range(1, model.njnt)]
     rows, commands = read("rows.csv", run["record"]["rows"]), read("commands.csv")
     time, cycle = rows("time_s", "cycle").T
-    data = begin(model, json.loads((record / "start.json").read_text(encoding="utf-8")))
+    given = commands("time_s")[:, 0]
+    for name, times in (("rows.csv", time), ("commands.csv", given)):
+        if np.any(np.diff(times) <= 0) or times[0] < 0 or times[-1] > time[0] + run["record"]["row_step_s"] * len(time):
+            raise ValueError(f"times in {name} do not grow row by row")
+    if given[0] > 0:
+        raise ValueError("commands.csv does not begin with the crawl")
+    data = begin(model, read_json(record / "start.json"))
     poses = np.hstack([rows("x_mm", "y_mm", "z_mm") / 1e3, rows("qw", "qx", "qy", "qz")])
     recorded = (
         np.vstack([data.qpos[:7], poses]),
@@ -192,18 +233,18 @@ def replay_and_measure(record, robot_xml):
         rows(*(joint + "_work_j" for joint in joints)).sum(axis=1),
     )
     sent = commands(*(joint + "_cmd_rad" for joint in joints))
-    replayed = replay(model, motors, data, commands("time_s")[:, 0], sent, time)
+    replayed = replay(model, motors, data, given, sent, time)
     return np.unique(cycle), by_cycle(cycle, *recorded), by_cycle(cycle, *replayed)
 
 
 def main():
     parser = argparse.ArgumentParser(description="Replays a recorded crawl in plain MuJoCo.")
     parser.add_argument("record", type=Path, help="folder that `prone crawl run --record` wrote")
-    parser.add_argument("--robot-xml", type=Path, default=NAO, help="default: %(default)s")
+    parser.add_argument("--robot-xml", type=Path, help="default: that of the robot's folder in this repository")
     args = parser.parse_args()
     try:
         cycles, recorded, replayed = replay_and_measure(args.record, args.robot_xml)
-    except (OSError, ValueError, KeyError, TypeError, IndexError) as problem:
+    except (OSError, ValueError, KeyError, TypeError, IndexError, AttributeError, ZeroDivisionError) as problem:
         reason = f"it has no {problem}" if isinstance(problem, KeyError) else problem
         print(f"{args.record}: this script cannot replay it: {reason}", file=sys.stderr)
         return 2

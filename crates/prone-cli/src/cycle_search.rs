@@ -4,6 +4,7 @@ use std::io::Write;
 
 use anyhow::anyhow;
 
+use prone::motor::HEAD_CARRIES;
 use prone_files::robot_folder::RobotFiles;
 use prone_record::experiment::{
     CycleRulesChoice, CycleSearchExperiment, Experiment, GaitText, NamedGait, RobotText, Runs,
@@ -76,7 +77,7 @@ pub(crate) fn experiment(args: &OptimizeArgs) -> Result<CycleSearchExperiment, F
                 demanded_shoulder_nm: args.demanded_shoulder_nm,
                 body_share_percent: args.body_share_percent,
                 most_heat: args.most_heat,
-                most_head_n: args.most_head_n,
+                most_head_n: Some(args.most_head_n.unwrap_or(HEAD_CARRIES)),
             },
             worst_over: worst_over.map(|name| named(&files, name)).transpose()?,
             name: args.name.clone(),

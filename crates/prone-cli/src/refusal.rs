@@ -133,6 +133,9 @@ fn of_crawl(error: CrawlSetupError) -> Failure {
         CrawlSetupError::NothingToPass { scene } => Failure::Input(anyhow!(
             "--until-past needs a plate or a panel: scene {scene} has none"
         )),
+        CrawlSetupError::NoGears { source } => {
+            Failure::Input(anyhow!("--gear-efficiency changes nothing: {source}"))
+        }
         CrawlSetupError::Scene(error) => of_scene(error),
         other => Failure::input(other),
     }

@@ -11,7 +11,7 @@ use serde::Serialize;
 use prone::regime::Regime;
 use prone_files::compiled_robot::CompiledRobotError;
 use prone_files::shipped;
-use prone_sim::{LoadedRobot, RobotFiles, World};
+use prone_sim::{LoadedRobot, RobotFiles, World, WorldError};
 use prone_study::robot_sheet::{self, ChainSheet, RobotSheet};
 
 use crate::Failure;
@@ -34,13 +34,18 @@ pub(crate) fn files(name: Option<&Path>) -> Result<RobotFiles, Failure> {
 
 pub(crate) fn check(args: &RobotCheckArgs) -> Result<(), Failure> {
     let loaded = load(args.robot.name())?;
-    for regime in [Regime::TORQUE_STUDY, Regime::LOCOMOTION] {
-        World::new(&loaded, regime).map_err(Failure::input)?;
-    }
+    World::new(&loaded, Regime::LOCOMOTION).map_err(Failure::input)?;
+    // A robot that crawls is a robot; the study's servos are not its own.
+    let no_torque_study = match World::new(&loaded, Regime::TORQUE_STUDY) {
+        Ok(_) => None,
+        Err(WorldError::Servo { source, .. }) => Some(source.to_string()),
+        Err(error) => return Err(Failure::input(error)),
+    };
     let folder = &loaded.files().folder;
     let compiled = compile::beside(&loaded);
     let checked = Checked {
         sheet: robot_sheet::of(loaded.robot()).map_err(Failure::input)?,
+        no_torque_study,
         compiled: compiled.as_ref().map(|compiled| Compiled {
             fresh: compiled.is_ok(),
             refused: compiled.as_ref().err().map(ToString::to_string),
@@ -52,6 +57,9 @@ pub(crate) fn check(args: &RobotCheckArgs) -> Result<(), Failure> {
         writeln!(out, "{text}")?;
     } else {
         print(&checked.sheet, folder, &mut out)?;
+        if let Some(why) = &checked.no_torque_study {
+            writeln!(out, "\nthe torque study does not run with it: {why}")?;
+        }
     }
     if let Some(Err(error)) = compiled {
         return Err(refused(folder, &error));
@@ -83,6 +91,8 @@ fn refused(folder: &str, error: &CompiledRobotError) -> Failure {
 struct Checked {
     #[serde(flatten)]
     sheet: RobotSheet,
+    /// Why the regime of the torque study does not take it, where it does not.
+    no_torque_study: Option<String>,
     compiled: Option<Compiled>,
 }
 

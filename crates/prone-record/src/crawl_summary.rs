@@ -238,6 +238,22 @@ pub struct ReasonSummary {
     pub limited: f64,
 }
 
+impl ReasonSummary {
+    /// As a sentence without its end.
+    pub fn in_words(&self) -> String {
+        let Self {
+            measure,
+            joint,
+            value,
+            continuous,
+            limited: _,
+        } = self;
+        let joint = joint.as_deref().map(|joint| format!(" ({joint})"));
+        let joint = joint.unwrap_or_default();
+        format!("{measure} {value:.3}{joint}, more than {continuous}")
+    }
+}
+
 /// One motor over a time. Torque τ is **applied torque**; of a motor that turns several joints, their
 /// sum. What is over nominal torque or no-load speed is nothing where these are not known.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -258,11 +274,12 @@ pub struct MotorSummary {
     pub rms_over_nominal: Option<f64>,
     /// Largest torque that the position error asks for before any limit, N·m.
     pub demanded_peak_nm: f64,
-    /// Largest position error, degrees.
+    /// Largest position error that its controller went by, degrees; of several joints, their mean's.
     pub largest_lag_deg: f64,
-    /// Share of the time in which the supply's voltage is less than what the controller asks for.
-    pub voltage_clipped_share: f64,
-    /// Share of the time at the current limit.
+    /// Share of the time in which commands move where the supply's voltage is less than what the
+    /// controller asks for.
+    pub voltage_clipped_share: Option<f64>,
+    /// Share of that time at the current limit.
     pub saturated_share: f64,
     /// Largest commanded speed over the no-load speed.
     pub planned_speed_over_no_load: Option<f64>,

@@ -17,6 +17,9 @@ use crate::tables::{file, maybe, number};
 /// A figure of a cycle: its column, and where it stands.
 type Figure = (&'static str, fn(&CycleSummary) -> f64);
 
+/// A figure of a cycle that may not be known.
+type KnownFigure = (&'static str, fn(&CycleSummary) -> Option<f64>);
+
 /// A figure of a motor that may not be known.
 type MotorFigure = (&'static str, fn(&MotorSummary) -> Option<f64>);
 
@@ -33,14 +36,16 @@ const FIRST: [Figure; 8] = [
 ];
 
 /// Figures of a cycle after its highest points, with five decimals.
-const LAST: [Figure; 7] = [
-    ("heat_s", |cycle| cycle.heat_s.unwrap_or(f64::NAN)),
-    ("work_j", |cycle| cycle.work_j),
-    ("body_share", |cycle| cycle.body_share),
-    ("pull_advance_mm", |cycle| cycle.pull_advance_mm),
-    ("recovery_body_share", |cycle| cycle.recovery_body_share),
-    ("head_peak_n", |cycle| cycle.ground.head.peak_n),
-    ("hand_peak_n", |cycle| cycle.ground.hand.peak_n),
+const LAST: [KnownFigure; 7] = [
+    ("heat_s", |cycle| cycle.heat_s),
+    ("work_j", |cycle| Some(cycle.work_j)),
+    ("body_share", |cycle| Some(cycle.body_share)),
+    ("pull_advance_mm", |cycle| Some(cycle.pull_advance_mm)),
+    ("recovery_body_share", |cycle| {
+        Some(cycle.recovery_body_share)
+    }),
+    ("head_peak_n", |cycle| Some(cycle.ground.head.peak_n)),
+    ("hand_peak_n", |cycle| Some(cycle.ground.hand.peak_n)),
 ];
 
 /// Figures of a motor over a cycle.
@@ -51,7 +56,7 @@ const MOTOR: [MotorFigure; 12] = [
     ("rms_nm", |it| Some(it.rms_nm)),
     ("rms_over_nominal", |it| it.rms_over_nominal),
     ("peak_nm", |it| Some(it.peak_nm)),
-    ("voltage_clipped_share", |it| Some(it.voltage_clipped_share)),
+    ("voltage_clipped_share", |it| it.voltage_clipped_share),
     ("saturated_share", |it| Some(it.saturated_share)),
     ("planned_speed_over_no_load", |it| {
         it.planned_speed_over_no_load
@@ -71,15 +76,10 @@ pub fn cycles(summary: &CrawlSummary) -> Result<Vec<u8>, csv::Error> {
         let mut cells = vec![cycle.cycle.to_string()];
         cells.extend(FIRST.map(|(_, figure)| number(figure(cycle), 3)));
         cells.extend(cycle.top_mm.to_array().map(|top| number(top, 3)));
-        cells.extend(LAST.map(|(_, figure)| known(figure(cycle), 5)));
+        cells.extend(LAST.map(|(_, figure)| maybe(figure(cycle), 5)));
         cells
     });
     file(header, rows)
-}
-
-/// A number with fixed decimals; an empty cell of what is not known.
-fn known(value: f64, decimals: usize) -> String {
-    maybe((!value.is_nan()).then_some(value), decimals)
 }
 
 /// `motors.csv`: what each motor did in each cycle.

@@ -69,7 +69,11 @@ fn a_whole_record_is_shown_and_reported() {
         ),
         (0, 0)
     );
-    for said in ["implicitfast, Newton, elliptic", "the maker's", "Replay"] {
+    for said in [
+        "implicitfast, Newton, elliptic",
+        "the manufacturer's",
+        "Replay",
+    ] {
         assert!(report.html.contains(said), "{said}");
     }
     assert!(

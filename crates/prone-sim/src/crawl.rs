@@ -12,7 +12,7 @@ mod limbs;
 mod measure;
 mod touch;
 
-pub use ground::Ground;
+pub use ground::GroundLoad;
 pub use limbs::{LimbsError, check_limbs};
 pub use measure::{Advance, CycleRow, Row};
 pub use touch::Touch;
@@ -97,7 +97,7 @@ pub struct Crawl {
     /// What the motors did.
     pub effort: Effort,
     /// What the ground carried.
-    pub ground: Ground,
+    pub ground: GroundLoad,
     /// The highest points by part of the body.
     pub tops: Tops,
     /// What it bumped into, by part of the robot, then by obstacle.

@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 use mujoco_rs::prelude::*;
 
 use prone::frames::{Ground, Point, Root, Transform};
-use prone::motor::{Effort, MotorStep};
+use prone::motor::{Commands, Effort, MotorStep};
 use prone::robot::{BodyPoses, ContactGroup, JointAngles, Robot};
 use prone::scene::ContactForce;
 
@@ -17,7 +17,7 @@ use prone::regime::CONTROL_STEP;
 mod contacts;
 mod motors;
 
-pub(crate) use contacts::{ContactSums, Keep};
+pub(crate) use contacts::{ContactSums, Kept};
 use motors::Motors;
 
 /// A robot moving in a world. A clone goes on to the same bits as the original.
@@ -129,8 +129,8 @@ impl Simulation {
             for (sum, torque) in torques.iter_mut().zip(self.applied_torque()) {
                 *sum += torque;
             }
-            contacts.add(self, Keep::EachBody);
-            effort.add_step(self.motor_steps(), step);
+            contacts.add(self, Kept::EachBody);
+            effort.add_step(self.motor_steps(), step, Commands::Move);
         }
         for sum in &mut torques {
             *sum /= steps as f64;
@@ -149,7 +149,7 @@ impl Simulation {
         self.motors
             .command(&self.world, &mut self.data, &self.reference);
         self.data.step();
-        self.motors.read(&self.world, &self.data, &self.reference);
+        self.motors.read(&self.world, &self.data);
         self.steps += 1;
     }
 

@@ -92,7 +92,8 @@ impl World {
     /// Puts a robot on a level floor.
     ///
     /// # Errors
-    /// [`WorldError::Compile`] where the engine refuses the model.
+    /// [`WorldError::Compile`] where the engine refuses the model, [`WorldError::Servo`] where its step
+    /// is too long for a servo.
     pub fn new(loaded: &LoadedRobot, regime: Regime) -> Result<Self, WorldError> {
         Self::in_scene(loaded, regime, &Scene::level())
     }
@@ -100,7 +101,8 @@ impl World {
     /// Puts a robot into a scene. The scene's friction, where it has one, replaces the regime's.
     ///
     /// # Errors
-    /// [`WorldError`] where the scene is invalid or the engine refuses the model.
+    /// [`WorldError`] where the scene is invalid, the engine refuses the model, or its step is too long
+    /// for a servo.
     pub fn in_scene(
         loaded: &LoadedRobot,
         regime: Regime,
@@ -112,7 +114,7 @@ impl World {
         })?;
         let robot = Arc::clone(loaded.robot());
         let stops = match regime.stops {
-            Stops::Maker => robot.stops(),
+            Stops::Manufacturer => robot.stops(),
             Stops::Study => robot.study_stops(),
         };
         let scenery = Scenery::from_scene(scene);

@@ -3,7 +3,7 @@
 use prone::motor::Effort;
 use prone::robot::Tops;
 use prone::steering::Bearing;
-use prone_sim::crawl::{Advance, CycleRow, Ground};
+use prone_sim::crawl::{Advance, CycleRow, GroundLoad};
 
 /// A cycle between two bearings, its pull ended half-way.
 fn cycle(from: Bearing, to: Bearing) -> CycleRow {
@@ -22,9 +22,10 @@ fn cycle(from: Bearing, to: Bearing) -> CycleRow {
         tops: Tops::NONE,
         effort: Effort {
             seconds: 1.0,
+            moving: 1.0,
             motors: Vec::new(),
         },
-        ground: Ground::default(),
+        ground: GroundLoad::default(),
         body_share: 0.0,
         recovery_body_share: 0.0,
     }

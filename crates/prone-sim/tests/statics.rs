@@ -13,7 +13,7 @@ use rayon::prelude::*;
 
 use prone::chain::GaitParameters;
 use prone::mapping::{ArmMode, Mapping, MappingVariant};
-use prone::regime::{Effort, Regime, Servo, VelocityServo};
+use prone::regime::{Regime, Servo, TorqueLimit, VelocityServo};
 use prone::robot::{ContactGroup, JointId, Robot};
 use prone::statics::{self, HalfRobot, Stance, StaticTorques, SupportRule};
 use prone::torque_map::{self, Axis, Grid, Row, TorqueMap, TorqueSource};
@@ -31,7 +31,7 @@ const JOINTS: [&str; 4] = ["ankle", "knee", "hip", "shoulder"];
 /// would have no damping.
 const STIFF: Regime = Regime {
     name: "stiff",
-    effort: Effort::Uniform(1000.0),
+    torque_limit: TorqueLimit::Uniform(1000.0),
     servo: Servo::Velocity(VelocityServo {
         gain: Some(20.0),
         ..VelocityServo::RECORDINGS

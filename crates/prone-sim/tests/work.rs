@@ -1,6 +1,6 @@
 //! Work of a motor is what it lifts, and not what it lets down: m g h, by the law.
 
-use prone::motor::MotorEffort;
+use prone::motor::{Commands, MotorEffort};
 use prone::regime::Regime;
 use prone::robot::{BodyId, JointAngles, JointId, Robot};
 use prone::statics::GRAVITY;
@@ -66,7 +66,8 @@ impl Lying {
             let drives = self.robot.drives();
             for (drive, step) in drives.iter().zip(self.simulation.motor_steps()) {
                 if self.shoulders.contains(&drive.joints[0]) {
-                    self.effort.add_step(step, self.simulation.time_step());
+                    self.effort
+                        .add_step(step, self.simulation.time_step(), Commands::Move);
                 }
             }
         }

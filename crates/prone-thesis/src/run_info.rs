@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use serde::{Deserialize, Serialize};
 
-use prone::regime::{CONTROL_STEP, Effort, SOLIMP, SOLREF, Stops, TIME_STEP, VelocityServo};
+use prone::regime::{CONTROL_STEP, SOLIMP, SOLREF, Stops, TorqueLimit, VelocityServo};
 use prone_record::curves_info::CurvesInfo;
 use prone_record::head::Head;
 use prone_record::program::{Program, RobotInfo};
@@ -106,18 +106,18 @@ impl RunInfo {
                 regime: regime.name.into(),
                 friction: regime.friction,
                 impratio: regime.impratio,
-                effort_limit: match regime.effort {
-                    Effort::Published => "the maker's".to_owned(),
-                    Effort::Uniform(limit) => format!("{limit} N·m on every joint"),
+                effort_limit: match regime.torque_limit {
+                    TorqueLimit::Published => "the manufacturer's".to_owned(),
+                    TorqueLimit::Uniform(limit) => format!("{limit} N·m on every joint"),
                 },
                 stops: match regime.stops {
-                    Stops::Maker => "the maker's".to_owned(),
+                    Stops::Manufacturer => "the manufacturer's".to_owned(),
                     Stops::Study => {
                         let moved: Vec<String> = moved.collect();
-                        format!("the maker's, but {}", moved.join(", "))
+                        format!("the manufacturer's, but {}", moved.join(", "))
                     }
                 },
-                time_step_s: TIME_STEP,
+                time_step_s: regime.time_step,
                 control_step_s: CONTROL_STEP,
                 servo_rate_per_s: VelocityServo::RECORDINGS.rate,
                 servo_speed_rad_s: VelocityServo::RECORDINGS.speed,

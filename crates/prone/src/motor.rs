@@ -25,12 +25,12 @@
 mod effort;
 mod verdict;
 
-pub use effort::{Effort, MotorEffort, MotorStep, MotorUse, UnknownMotor};
+pub use effort::{Commands, Effort, MotorEffort, MotorStep, MotorUse, UnknownMotor};
 pub use verdict::{Duty, HEAD_CARRIES, Load, Measure, Reason, Verdict};
 
 use crate::robot::Joint;
 
-/// A joint that is said to be faster than its motor.
+/// A speed limit above the no-load speed of the joint's motor.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error(
     "speed limit {limit} rad/s of {joint} is above the no-load speed of its motor, {no_load:.3} rad/s"
@@ -62,13 +62,13 @@ pub fn check_speed(joint: &Joint) -> Result<(), TooFast> {
 /// A motor with its gear and controller, at the joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DcServo {
-    /// K, N·m/rad.
+    /// Torque that the controller asks for per position error, K, N·m/rad.
     pub stiffness: f64,
-    /// η τₛ, N·m.
+    /// Torque that the supply gives at rest, behind the gear, η τₛ, N·m.
     pub supply_torque: f64,
-    /// τₘ, N·m.
+    /// Torque at the current limit, τₘ, N·m.
     pub current_torque: f64,
-    /// b, N·m·s/rad.
+    /// What torque loses per speed, b, N·m·s/rad.
     pub back_emf: f64,
     /// Whether stall torque or no-load speed are not the manufacturer's but assumed from the
     /// limits.
@@ -108,10 +108,16 @@ impl DcServo {
         let wanted = self.stiffness * error;
         let by_supply = wanted.clamp(-self.supply_torque, self.supply_torque);
         let back = self.back_emf * speed;
-        // Not `clamp`, which panics where a run has diverged and the speed is no number.
-        let torque = by_supply
-            .max(back - self.current_torque)
-            .min(back + self.current_torque);
+        let (least, most) = (back - self.current_torque, back + self.current_torque);
+        // Not `clamp`, which panics where the speed is no number, nor `min` and `max`, which give a
+        // number where the error is none.
+        let torque = if by_supply < least {
+            least
+        } else if by_supply > most {
+            most
+        } else {
+            by_supply
+        };
         Driven {
             torque,
             supply_clipped: wanted.abs() > self.supply_torque,
@@ -174,8 +180,15 @@ mod tests {
         // Driven backwards fast, it brakes with no more than its limit.
         let braking = servo.drive(0.0, -20.0);
         near(servo.applied(&braking, -20.0), 1.5);
-        let diverged = servo.drive(0.1, f64::NAN);
-        assert!(servo.applied(&diverged, f64::NAN).is_nan());
+    }
+
+    #[test]
+    fn limit_what_is_no_number_gives_no_torque_that_is_one() {
+        let servo = DcServo::new(&joint(), 0.6, 1.0, 1.5);
+        for (error, speed) in [(0.1, f64::NAN), (f64::NAN, 0.0), (f64::NAN, f64::NAN)] {
+            let driven = servo.drive(error, speed);
+            assert!(servo.applied(&driven, speed).is_nan(), "{error} {speed}");
+        }
     }
 
     #[test]

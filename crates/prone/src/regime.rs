@@ -18,7 +18,7 @@ pub struct Regime {
     /// Which joint stops hold.
     pub stops: Stops,
     /// Which torque limit holds.
-    pub effort: Effort,
+    pub torque_limit: TorqueLimit,
     /// How the joints are driven.
     pub servo: Servo,
     /// Length of one engine step, s; a whole number of them makes a [`CONTROL_STEP`].
@@ -29,7 +29,7 @@ pub struct Regime {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stops {
     /// The manufacturer's.
-    Maker,
+    Manufacturer,
     /// The robot's study stops: a sagging joint must not lean on its stop, which would take the
     /// torque away from the motor that is measured.
     Study,
@@ -37,7 +37,7 @@ pub enum Stops {
 
 /// Which torque limit a regime uses.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Effort {
+pub enum TorqueLimit {
     /// The manufacturer's effort limit of each joint.
     Published,
     /// The same limit for all joints, N·m.
@@ -58,7 +58,7 @@ pub enum Servo {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotorServo {
     /// What the stiffness of every servo ([`Joint::servo_stiffness`]) is multiplied by.
-    pub stiffness: f64,
+    pub stiffness_factor: f64,
     /// Efficiency of the gears in place of the robot's ([`Control::gear_efficiency`]).
     pub gear_efficiency: Option<f64>,
 }
@@ -78,19 +78,19 @@ pub struct VelocityServo {
 impl MotorServo {
     /// The robot's own.
     pub const ROBOT: Self = Self {
-        stiffness: 1.0,
+        stiffness_factor: 1.0,
         gear_efficiency: None,
     };
 
-    /// Half as stiff: one end of what is not known about a robot's controller.
+    /// Half as stiff: one end of what is taken to be possible, as nobody has measured a robot's.
     pub const SOFT: Self = Self {
-        stiffness: 0.5,
+        stiffness_factor: 0.5,
         ..Self::ROBOT
     };
 
     /// Four times as stiff: the other end.
     pub const STIFF: Self = Self {
-        stiffness: 4.0,
+        stiffness_factor: 4.0,
         ..Self::ROBOT
     };
 
@@ -101,7 +101,7 @@ impl MotorServo {
 }
 
 impl VelocityServo {
-    /// That of the recordings.
+    /// That of the recordings: the script of their scene commands 20 /s of the error, at most 3 rad/s.
     pub const RECORDINGS: Self = Self {
         rate: 20.0,
         speed: 3.0,
@@ -119,7 +119,7 @@ impl VelocityServo {
     }
 }
 
-impl Effort {
+impl TorqueLimit {
     /// Torque limit of a joint, N·m.
     pub const fn limit(self, joint: &Joint) -> f64 {
         match self {
@@ -137,7 +137,7 @@ impl Regime {
         friction: 0.05,
         impratio: 1.0,
         stops: Stops::Study,
-        effort: Effort::Uniform(30.0),
+        torque_limit: TorqueLimit::Uniform(30.0),
         servo: Servo::Velocity(VelocityServo::RECORDINGS),
         time_step: TIME_STEP,
     };
@@ -148,8 +148,8 @@ impl Regime {
         name: "locomotion",
         friction: 0.7,
         impratio: 10.0,
-        stops: Stops::Maker,
-        effort: Effort::Published,
+        stops: Stops::Manufacturer,
+        torque_limit: TorqueLimit::Published,
         servo: Servo::DcMotor(MotorServo::ROBOT),
         time_step: TIME_STEP,
     };

@@ -4,7 +4,7 @@ use std::io::{Result, Write};
 
 use prone::motor::HEAD_CARRIES;
 use prone::robot::BodyPart;
-use prone_record::crawl_summary::{CrawlSummary, PlateContact};
+use prone_record::crawl_summary::{CrawlSummary, PlateContact, ReasonSummary};
 
 pub(crate) fn print(summary: &CrawlSummary, out: &mut dyn Write) -> Result<()> {
     let s = summary;
@@ -112,7 +112,7 @@ fn print_motors(s: &CrawlSummary, out: &mut dyn Write) -> Result<()> {
     print_verdict(s, out)
 }
 
-/// Efficiencies of gears beside the one that is supposed.
+/// Efficiencies of gears beside the one that is supposed: what is known of a robot's lies between.
 const OTHER_GEARS: [f64; 2] = [0.5, 0.75];
 
 fn print_verdict(s: &CrawlSummary, out: &mut dyn Write) -> Result<()> {
@@ -121,16 +121,11 @@ fn print_verdict(s: &CrawlSummary, out: &mut dyn Write) -> Result<()> {
         return writeln!(out, "  on a robot: unknown, {unknown}");
     }
     let duty = verdict.duty.as_deref().unwrap_or("unknown");
-    let reasons = verdict.reasons.iter().map(|reason| {
-        let joint = reason.joint.as_deref();
-        let joint = joint.map_or_else(String::new, |joint| format!(" ({joint})"));
-        let (measure, value) = (&reason.measure, reason.value);
-        format!(
-            "{measure} {value:.3}{joint}, more than {}",
-            reason.continuous
-        )
-    });
-    let reasons: Vec<String> = reasons.collect();
+    let reasons: Vec<String> = verdict
+        .reasons
+        .iter()
+        .map(ReasonSummary::in_words)
+        .collect();
     let because = if reasons.is_empty() {
         String::new()
     } else {
@@ -146,7 +141,7 @@ fn print_verdict(s: &CrawlSummary, out: &mut dyn Write) -> Result<()> {
         let others = OTHER_GEARS.map(|gears| format!("{:.2} with {gears}", rms * supposed / gears));
         writeln!(
             out,
-            "  RMS torque over nominal at most {rms:.2} ({joint}), gears that pass on {supposed} of it; the same torque: {}",
+            "  RMS torque over what gears of efficiency {supposed} pass on of the nominal: at most {rms:.2} ({joint}); over that of others {}",
             others.join(", ")
         )?;
     }

@@ -160,9 +160,12 @@ impl ControlDocument {
         let positive = |key, value, largest| at.key(key).positive(value, largest);
         let (place, steering) = (at.key("steering"), &self.steering);
         let gain = |key, value| place.key(key).within(value, 0.0..=bounds::STEERING);
+        let (least, largest) = bounds::GEAR_EFFICIENCY;
         Ok(Control {
             command_step: positive("command_step_s", self.command_step_s, bounds::COMMAND_STEP)?,
-            gear_efficiency: positive("gear_efficiency", self.gear_efficiency, 1.0)?,
+            gear_efficiency: at
+                .key("gear_efficiency")
+                .within(self.gear_efficiency, least..=largest)?,
             steering: SteeringGains {
                 yaw: gain("yaw", steering.yaw)?,
                 lateral: gain("lateral_rad_m", steering.lateral_rad_m)?,

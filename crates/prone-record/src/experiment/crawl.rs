@@ -1,5 +1,6 @@
 //! A crawl of whole cycles, and a single pull.
 
+use prone::robot::bounds;
 use serde::{Deserialize, Serialize};
 
 use super::{GaitText, RobotText, SceneText};
@@ -130,8 +131,8 @@ impl CrawlExperiment {
     /// Headings, degrees from the first one.
     pub const HEADING_BOUNDS_DEG: (f64, f64) = (-180.0, 180.0);
 
-    /// Efficiencies of gears: from worm gears to none at all.
-    pub const GEAR_EFFICIENCY_BOUNDS: (f64, f64) = (0.05, 1.0);
+    /// Efficiencies of gears.
+    pub const GEAR_EFFICIENCY_BOUNDS: (f64, f64) = bounds::GEAR_EFFICIENCY;
 
     /// Rests after a cycle, s.
     pub const REST_BOUNDS_S: (f64, f64) = (0.0, 600.0);

@@ -58,7 +58,7 @@ pub struct Card {
     /// What the motors of a robot could do of it: `continuous`, `limited`, `not on a robot`; nothing
     /// where the figures of a motor are not known.
     pub verdict: Option<String>,
-    /// What speaks against going on for ever.
+    /// What speaks against going on for ever, or what is not known.
     pub verdict_reasons: Vec<String>,
     /// Largest mean force on the head over 20 ms, N.
     pub head_peak_n: f64,
@@ -103,7 +103,7 @@ pub struct JointCard {
     /// RMS over what the gear passes on of the nominal torque; 1 for ever at the rating.
     pub rms_over_nominal: f64,
     /// Share of the time in which the supply's voltage is less than what the controller asks for.
-    pub voltage_clipped_share: f64,
+    pub voltage_clipped_share: Option<f64>,
     /// Share of the time at the current limit.
     pub saturated_share: f64,
     /// Its share of ∫ Σ (τ / nominal torque)² dt.
@@ -123,6 +123,8 @@ impl Card {
                 regime.name, regime.friction, regime.effort_limit, regime.stops
             )
         });
+        let verdict = &summary.verdict;
+        let reasons = verdict.reasons.iter().map(ReasonSummary::in_words);
         let (highest_part, highest_mm) = summary.top_mm.highest_part();
         let metres = Some(summary.path_mm / 1e3).filter(|metres| *metres > 0.0);
         let straight = summary.yaw_deg.abs() < STRAIGHT_DEG;
@@ -153,8 +155,8 @@ impl Card {
             plate_contacts: summary.plate_contacts,
             cost_of_transport_mechanical: summary.cost_of_transport,
             cost_of_transport_electrical_estimated: summary.electrical_cost_of_transport,
-            verdict: summary.verdict.duty.clone(),
-            verdict_reasons: summary.verdict.reasons.iter().map(in_words).collect(),
+            verdict: verdict.duty.clone(),
+            verdict_reasons: reasons.chain(verdict.unknown.clone()).collect(),
             head_peak_n: summary.ground.head.peak_n,
             head_share: summary.ground.head.share_of_time,
             hand_peak_n: summary.ground.hand.peak_n,
@@ -174,18 +176,6 @@ impl Card {
 
 /// Up to which change of heading what lies beside the line of the start is drift, degrees.
 const STRAIGHT_DEG: f64 = 20.0;
-
-/// A reason of a verdict as a sentence without its end.
-fn in_words(reason: &ReasonSummary) -> String {
-    let joint = reason.joint.as_deref().map(|joint| format!(" ({joint})"));
-    format!(
-        "{} {:.3}{}, more than {}",
-        reason.measure,
-        reason.value,
-        joint.unwrap_or_default(),
-        reason.continuous
-    )
-}
 
 /// The warm ones, and the share of the others.
 fn joints(summaries: &[MotorSummary], heat_s: f64) -> (Vec<JointCard>, f64) {
@@ -227,7 +217,7 @@ mod tests {
             rms_over_nominal: nominal_nm.map(|nominal| 0.5 / (0.6 * nominal)),
             demanded_peak_nm: 1.0,
             largest_lag_deg: 1.0,
-            voltage_clipped_share: 0.0,
+            voltage_clipped_share: Some(0.0),
             saturated_share: 0.0,
             planned_speed_over_no_load: None,
             heat_s,

@@ -159,7 +159,7 @@ fn verdicts(cards: &[Card]) -> Markup {
     let spoken = |card: &&Card| !card.verdict_reasons.is_empty();
     html! {
         @if cards.iter().any(|card| spoken(&card)) {
-            p { "What a robot's motors could not go on with:" }
+            p { "What a robot's motors could not go on with, or what is not known of them:" }
             ul { @for card in cards.iter().filter(spoken) {
                 li {
                     (card.gait) " " small.run { "(" (card.run) ")" } ": "
@@ -207,7 +207,7 @@ fn joints(cards: &[Card]) -> Markup {
                             Some(joint) => {
                                 td { (format!("{:.2}", joint.peak_over_nominal)) }
                                 td { (format!("{:.2}", joint.rms_over_nominal)) }
-                                td { (percent(joint.voltage_clipped_share)) }
+                                td { (optional(joint.voltage_clipped_share, percent)) }
                                 td { (percent(joint.saturated_share)) }
                                 td { (percent(joint.heat_share)) }
                             }

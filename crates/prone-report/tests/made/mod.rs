@@ -114,7 +114,7 @@ fn driven_by_hand() -> Value {
 fn simulated() -> Value {
     json!({
         "kind": "simulated", "engine": "by hand", "name": "locomotion", "friction": 0.7,
-        "impratio": 10.0, "effort_limit": "the maker's", "stops": "the maker's",
+        "impratio": 10.0, "effort_limit": "the manufacturer's", "stops": "the manufacturer's",
         "servo": "DC motors",
         "time_step_s": 0.0025, "command_step_s": 0.01, "settle_s": 1.0, "solref": [0.02, 1.0],
         "solimp": [0.9, 0.99, 0.001, 0.5, 2.0], "integrator": "implicitfast", "solver": "Newton",

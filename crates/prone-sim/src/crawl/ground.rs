@@ -5,7 +5,7 @@ use prone::robot::ContactGroup;
 
 /// What the ground carried over a time, by [`ContactGroup::ALL`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Ground {
+pub struct GroundLoad {
     /// ∫ normal force dt, N·s.
     pub impulse: [f64; ContactGroup::COUNT],
     /// Largest mean over [`super::ROW_STEP`], N.
@@ -14,10 +14,17 @@ pub struct Ground {
     pub carried: [f64; ContactGroup::COUNT],
 }
 
-impl Ground {
-    pub(super) fn add_row(&mut self, forces: [f64; ContactGroup::COUNT], seconds: f64) {
-        for (group, force) in forces.into_iter().enumerate() {
-            self.impulse[group] += force * seconds;
+impl GroundLoad {
+    /// Adds an engine step of some length, s, with its forces, N.
+    pub(super) fn add_step(&mut self, forces: [f64; ContactGroup::COUNT], seconds: f64) {
+        for (sum, force) in self.impulse.iter_mut().zip(forces) {
+            *sum += force * seconds;
+        }
+    }
+
+    /// Adds the means of a row, N, of some length, s.
+    pub(super) fn add_row(&mut self, means: [f64; ContactGroup::COUNT], seconds: f64) {
+        for (group, force) in means.into_iter().enumerate() {
             self.peak[group] = self.peak[group].max(force);
             if force >= HEAD_CARRIES {
                 self.carried[group] += seconds;

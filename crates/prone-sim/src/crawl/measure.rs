@@ -1,18 +1,18 @@
 //! What is measured in a crawl.
 
 use prone::crawl::Stage;
-use prone::frames::{Ground as GroundFrame, Root, Transform};
+use prone::frames::{Ground, Root, Transform};
 use prone::gait::cycle::CheckedCycle;
-use prone::motor::Effort;
+use prone::motor::{Commands, Effort};
 use prone::robot::{BodyPart, ContactGroup, Drive, JointAngles, Tops};
 use prone::scene::ContactForce;
 use prone::steering::Bearing;
 
-use super::ground::{BodyLoad, Ground};
+use super::ground::{BodyLoad, GroundLoad};
 use super::touch::Touches;
 use super::{Crawl, Detail, ROW_STEP};
 use crate::driven::SimulatedRobot;
-use crate::simulation::{ContactSums, Keep, Simulation};
+use crate::simulation::{ContactSums, Kept, Simulation};
 
 /// A row of a crawl: the time since the row before, and the instant at its end.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,7 +36,7 @@ pub struct Row {
     /// What the world does to each body that it touches, mean over the row.
     pub forces: Vec<ContactForce>,
     /// Pose of the root.
-    pub ground_from_root: Transform<GroundFrame, Root>,
+    pub ground_from_root: Transform<Ground, Root>,
     /// Highest points.
     pub tops: Tops,
 }
@@ -63,7 +63,7 @@ pub struct CycleRow {
     /// What the motors did.
     pub effort: Effort,
     /// What the ground carried.
-    pub ground: Ground,
+    pub ground: GroundLoad,
     /// Share of the ground's force on trunk and legs during the pull.
     pub body_share: f64,
     /// The same during the recovery, in which limbs go back and the body may lie.
@@ -103,6 +103,10 @@ impl CycleRow {
     }
 }
 
+fn steps_per_row(simulation: &Simulation) -> usize {
+    simulation.world().regime().steps_in(ROW_STEP)
+}
+
 /// An angle brought to −π…π, rad.
 fn wrapped(angle: f64) -> f64 {
     use std::f64::consts::{PI, TAU};
@@ -120,9 +124,16 @@ pub(super) struct Meter {
     cycle: Option<CycleRow>,
     loads: [BodyLoad; 2],
     sums: RowSums,
-    /// What was commanded last.
-    command: Option<JointAngles>,
+    /// What was commanded last, and since when, s.
+    command: Option<(JointAngles, f64)>,
     touches: Touches,
+}
+
+/// What a command asks of the motors.
+struct Planned {
+    commands: Commands,
+    /// By drive where the command has just changed, rad/s; else nothing.
+    speeds: Vec<f64>,
 }
 
 /// Sums since the last row.
@@ -157,7 +168,7 @@ impl Meter {
                 commands: Vec::new(),
                 cycles: Vec::new(),
                 effort: Effort::none(robot),
-                ground: Ground::default(),
+                ground: GroundLoad::default(),
                 tops: Tops::NONE,
                 touches: Vec::new(),
                 stopped: Vec::new(),
@@ -196,7 +207,7 @@ impl Meter {
             to: from,
             tops: Tops::NONE,
             effort: Effort::none(simulation.robot()),
-            ground: Ground::default(),
+            ground: GroundLoad::default(),
             body_share: 0.0,
             recovery_body_share: 0.0,
         });
@@ -215,9 +226,6 @@ impl Meter {
         [cycle.body_share, cycle.recovery_body_share] = self.loads.map(BodyLoad::share);
         cycle.to = Bearing::of_prone(&simulation.ground_from_root());
         cycle.seconds = cycle.effort.seconds;
-        self.crawl.effort.add(&cycle.effort);
-        self.crawl.ground.add(&cycle.ground);
-        self.crawl.tops.raise(&cycle.tops);
         self.crawl.cycles.push(cycle);
     }
 
@@ -227,11 +235,11 @@ impl Meter {
         simulation: &Simulation,
         (command, stage): (&JointAngles, Stage),
     ) {
-        let speeds = self.planned_speeds(simulation, command);
+        let dt = simulation.time_step();
+        let planned = self.planned(simulation, command);
         let Some(cycle) = &mut self.cycle else {
             return;
         };
-        let dt = simulation.time_step();
         let since = simulation.time() - self.begin.unwrap_or_default();
         let commands = &mut self.crawl.commands;
         let is_new = commands.last().is_none_or(|(_, last)| last != command);
@@ -240,8 +248,8 @@ impl Meter {
         }
         self.touches.step(simulation, since);
         for effort in [&mut cycle.effort, &mut self.sums.effort] {
-            effort.add_step(simulation.motor_steps(), dt);
-            for (motor, speed) in effort.motors.iter_mut().zip(speeds.iter().flatten()) {
+            effort.add_step(simulation.motor_steps(), dt, planned.commands);
+            for (motor, speed) in effort.motors.iter_mut().zip(&planned.speeds) {
                 motor.planned_speed = motor.planned_speed.max(*speed);
             }
         }
@@ -250,36 +258,49 @@ impl Meter {
         for (sum, torque) in self.sums.torque.iter_mut().zip(simulation.applied_torque()) {
             *sum += torque;
         }
-        let keep = match self.detail {
-            Detail::Sums => Keep::Ground,
-            Detail::Rows => Keep::EachBody,
+        let kept = match self.detail {
+            Detail::Sums => Kept::Ground,
+            Detail::Rows => Kept::EachBody,
         };
-        let carried = self.sums.contacts.add(simulation, keep);
+        let carried = self.sums.contacts.add(simulation, kept);
+        cycle.ground.add_step(carried, dt);
         self.loads[usize::from(stage == Stage::Recovery)].add(carried);
-        let steps_per_row = simulation.world().regime().steps_in(ROW_STEP);
-        if simulation.steps().is_multiple_of(steps_per_row) {
+        if simulation.steps().is_multiple_of(steps_per_row(simulation)) {
             self.row(simulation);
         }
     }
 
-    /// Speed that each motor is asked for where the command has just changed, rad/s.
-    fn planned_speeds(
-        &mut self,
-        simulation: &Simulation,
-        command: &JointAngles,
-    ) -> Option<Vec<f64>> {
-        let before = self.command.replace(command.clone())?;
-        if before == *command {
-            return None;
+    /// What the command of an engine step asks of the motors.
+    fn planned(&mut self, simulation: &Simulation, command: &JointAngles) -> Planned {
+        let dt = simulation.time_step();
+        let between = simulation.robot().control.command_step.max(dt);
+        let now = simulation.time() - dt;
+        let (before, since) = self.command.get_or_insert_with(|| (command.clone(), now));
+        let held = now - *since;
+        if before == command {
+            // A step is as good as half of one later.
+            let commands = if held < between - dt / 2.0 {
+                Commands::Move
+            } else {
+                Commands::Rest
+            };
+            return Planned {
+                commands,
+                speeds: Vec::new(),
+            };
         }
-        let between = simulation.robot().control.command_step;
-        let between = between.max(simulation.time_step());
+        let seconds = held.clamp(dt, between);
         let speeds = self.drives.iter().map(|drive| {
             let joints = drive.joints.iter();
             let moves = joints.map(|joint| (command[*joint] - before[*joint]).abs());
-            moves.fold(0.0, f64::max) / between
+            moves.fold(0.0, f64::max) / seconds
         });
-        Some(speeds.collect())
+        let speeds = speeds.collect();
+        self.command = Some((command.clone(), now));
+        Planned {
+            commands: Commands::Move,
+            speeds,
+        }
     }
 
     /// Ends a row, where one has begun.
@@ -292,17 +313,19 @@ impl Meter {
         let contact = sums.contacts.ground();
         let poses = simulation.body_poses();
         let tops = Tops::from_poses(robot, &self.parts, &poses);
-        let (ground, highest, index) = match &mut self.cycle {
-            Some(cycle) => (&mut cycle.ground, &mut cycle.tops, self.crawl.cycles.len()),
-            // The last row of all ends with the last cycle.
-            None => (
-                &mut self.crawl.ground,
-                &mut self.crawl.tops,
-                self.crawl.cycles.len().saturating_sub(1),
-            ),
+        let done = self.crawl.cycles.len();
+        // The last row of all ends with the last cycle.
+        let (cycle, index) = match &mut self.cycle {
+            Some(cycle) => (Some(cycle), done),
+            None => (self.crawl.cycles.last_mut(), done.saturating_sub(1)),
         };
-        ground.add_row(contact, sums.effort.seconds);
-        highest.raise(&tops);
+        if let Some(cycle) = cycle {
+            cycle.tops.raise(&tops);
+            // The mean of a shorter time than others are of would be no match for their bounds.
+            if sums.steps >= steps_per_row(simulation) {
+                cycle.ground.add_row(contact, sums.effort.seconds);
+            }
+        }
         if self.detail == Detail::Sums {
             return;
         }
@@ -314,8 +337,8 @@ impl Meter {
             stage: sums.stage,
             command: self
                 .command
-                .clone()
-                .unwrap_or_else(|| simulation.reference()),
+                .as_ref()
+                .map_or_else(|| simulation.reference(), |(command, _)| command.clone()),
             angles: simulation.joint_angles(),
             applied_torque: sums.torque.iter().map(|&sum| mean(sum)).collect(),
             contact,
@@ -329,6 +352,11 @@ impl Meter {
     /// The record of what `robot` has done, and whether it has `arrived`.
     pub(super) fn finish(mut self, robot: &SimulatedRobot, arrived: bool) -> Crawl {
         self.row(robot.simulation());
+        for cycle in &self.crawl.cycles {
+            self.crawl.effort.add(&cycle.effort);
+            self.crawl.ground.add(&cycle.ground);
+            self.crawl.tops.raise(&cycle.tops);
+        }
         Crawl {
             touches: self.touches.finish(),
             stopped: robot.stopped(),

@@ -17,7 +17,7 @@ pub(super) fn read(lookup: &Lookup<'_>, table: &ControlTable) -> Result<Control,
     let steering = &table.steering;
     Ok(Control {
         command_step: number(&table.command_step_ms, "command_step_ms", longest_ms)? * 1e-3,
-        gear_efficiency: number(&table.gear_efficiency, "gear_efficiency", 1.0)?,
+        gear_efficiency: gears(lookup, &table.gear_efficiency)?,
         steering: SteeringGains {
             yaw: gain(&steering.yaw, "yaw")?,
             lateral: gain(&steering.lateral_rad_m, "lateral_rad_m")?,
@@ -25,6 +25,15 @@ pub(super) fn read(lookup: &Lookup<'_>, table: &ControlTable) -> Result<Control,
         },
         uphill: number(&table.uphill_deg, "uphill_deg", steepest_deg)?.to_radians(),
     })
+}
+
+fn gears(lookup: &Lookup<'_>, place: &Number) -> Result<f64, FileError> {
+    let (value, (least, largest)) = (*place.get_ref(), bounds::GEAR_EFFICIENCY);
+    if (least..=largest).contains(&value) {
+        return Ok(value);
+    }
+    let message = format!("gear_efficiency must be within {least}..{largest}, not {value}");
+    Err(lookup.error(place, message))
 }
 
 pub(super) fn search(lookup: &Lookup<'_>, table: &SearchTable) -> Result<SearchSetup, FileError> {

@@ -65,14 +65,14 @@ impl ContactSums {
     pub(crate) fn add(
         &mut self,
         simulation: &Simulation,
-        keep: Keep,
+        kept: Kept,
     ) -> [f64; ContactGroup::COUNT] {
         self.steps += 1;
         let ground = simulation.ground_contact();
         for (sum, force) in self.ground.iter_mut().zip(ground) {
             *sum += force;
         }
-        if keep == Keep::Ground {
+        if kept == Kept::Ground {
             return ground;
         }
         for contact in simulation.contacts() {
@@ -112,7 +112,7 @@ impl ContactSums {
 
 /// What is kept of contacts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Keep {
+pub(crate) enum Kept {
     /// What the ground carries.
     Ground,
     /// What every body meets as well.

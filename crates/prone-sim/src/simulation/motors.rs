@@ -18,6 +18,8 @@ use crate::world::{World, WorldDrive, WorldServo};
 pub(super) struct Motors {
     /// What each drive that is a motor was told, by the world's drives.
     driven: Vec<Option<Driven>>,
+    /// |Position error| that the controller of each drive goes by, the mean of its joints', rad.
+    lags: Vec<f64>,
     /// Joint speeds before the step, rad/s.
     before: Vec<f64>,
     /// By joint, N·m.
@@ -39,6 +41,7 @@ impl Motors {
         let (joints, drives) = (world.robot().joints.len(), world.drives().len());
         Self {
             driven: vec![None; drives],
+            lags: vec![0.0; drives],
             before: vec![0.0; joints],
             applied: vec![0.0; joints],
             steps: vec![IDLE; drives],
@@ -62,21 +65,22 @@ impl Motors {
     ) {
         self.before
             .copy_from_slice(&data.qvel()[FREE_JOINT_SPEEDS..]);
-        for (WorldDrive { drive, servo }, driven) in world.drives().iter().zip(&mut self.driven) {
+        for (index, WorldDrive { drive, servo }) in world.drives().iter().enumerate() {
             let joints = drive.joints.iter().map(|joint| joint.0);
             let sharers = drive.sharers();
+            let (mut error, mut speed) = (0.0, 0.0);
+            for joint in joints.clone() {
+                error += (reference[joint] - data.qpos()[FREE_JOINT + joint]) / sharers;
+                speed += self.before[joint] / sharers;
+            }
+            self.lags[index] = error.abs();
             match servo {
                 WorldServo::Motor(motor) => {
-                    let (mut error, mut speed) = (0.0, 0.0);
-                    for joint in joints.clone() {
-                        error += reference[joint] - data.qpos()[FREE_JOINT + joint];
-                        speed += self.before[joint];
-                    }
-                    let told = motor.drive(error / sharers, speed / sharers);
+                    let told = motor.drive(error, speed);
                     for joint in joints {
                         data.ctrl_mut()[joint] = told.torque / sharers;
                     }
-                    *driven = Some(told);
+                    self.driven[index] = Some(told);
                 }
                 WorldServo::Velocity { law, .. } => {
                     for joint in joints {
@@ -89,10 +93,13 @@ impl Motors {
     }
 
     /// Works out what was given over the step, from the speeds before and after it.
-    pub(super) fn read(&mut self, world: &World, data: &MjData<Arc<MjModel>>, reference: &[f64]) {
+    pub(super) fn read(&mut self, world: &World, data: &MjData<Arc<MjModel>>) {
         let after = &data.qvel()[FREE_JOINT_SPEEDS..];
         for (index, WorldDrive { drive, servo }) in world.drives().iter().enumerate() {
-            let mut step = IDLE;
+            let mut step = MotorStep {
+                lag: self.lags[index],
+                ..IDLE
+            };
             if let Some(driven) = self.driven[index] {
                 step.supply_clipped = driven.supply_clipped;
                 step.current_limited = driven.current_limited;
@@ -118,8 +125,6 @@ impl Motors {
                 self.applied[joint] = torque;
                 step.torque += torque;
                 step.power += torque * f64::midpoint(self.before[joint], after[joint]);
-                let error = reference[joint] - data.qpos()[FREE_JOINT + joint];
-                step.lag = step.lag.max(error.abs());
             }
             self.steps[index] = step;
         }

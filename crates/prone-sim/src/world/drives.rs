@@ -10,10 +10,11 @@ use mujoco_rs::mujoco_c::mjNGAIN;
 use mujoco_rs::prelude::*;
 use mujoco_rs::wrappers::mj_editing::MjtLimited;
 
-use prone::motor::DcServo;
+use prone::motor::{DcServo, Effort, MotorEffort};
 use prone::regime::{Regime, Servo, VelocityServo};
 use prone::robot::{Drive, JointId, Robot};
 
+use super::World;
 use crate::engine_numbers::FREE_JOINT_SPEEDS;
 
 /// What drives one or more joints.
@@ -51,18 +52,41 @@ impl WorldServo {
     }
 }
 
+impl WorldDrive {
+    /// Largest torque that its position error asked for before any limit, N·m.
+    pub fn demanded(&self, did: &MotorEffort) -> f64 {
+        self.servo.stiffness() * did.largest_lag
+    }
+}
+
+impl World {
+    /// Largest torque that position errors of the shoulders' pitch asked for before any limit, N·m.
+    pub fn demanded_of_shoulders(&self, effort: &Effort) -> f64 {
+        let shoulders = self.robot().chain.sides().map(|side| side.shoulder);
+        let pairs = self.drives().iter().zip(&effort.motors);
+        let theirs =
+            pairs.filter(|(it, _)| it.drive.joints.iter().any(|id| shoulders.contains(id)));
+        let demanded = theirs.map(|(it, did)| it.demanded(did));
+        demanded.fold(0.0, f64::max)
+    }
+}
+
 /// A servo that the engine's step is too long for.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TooStiff {
     /// A position controller whose joint would overshoot within a step.
     #[error(
-        "joint {joint}: a servo stiffness of {stiffness} N·m/rad times the square of the engine step of {step_ms} ms, over the inertia that its motor moves, is {value:.2}; it must be at most 1"
+        "joint {joint}: a servo stiffness of {stiffness} N·m/rad times the square of the engine step of {step_ms} ms, over the inertia that its motor moves, is {value:.2}; it must be at most 1: servo_stiffness_nm_rad is {of_robot}, and may be up to {largest:.1}"
     )]
     Motor {
         /// Name of the joint.
         joint: String,
-        /// K, N·m/rad.
+        /// What the joint has of K, N·m/rad.
         stiffness: f64,
+        /// The robot's, N·m/rad.
+        of_robot: f64,
+        /// The largest that it could have, N·m/rad.
+        largest: f64,
         /// Engine step, ms.
         step_ms: f64,
         /// K h² / I.
@@ -70,7 +94,7 @@ pub enum TooStiff {
     },
     /// A velocity servo that can reach its torque limit, where it has no damping.
     #[error(
-        "joint {joint}: a velocity gain of {gain} N·m·s/rad times the engine step of {step_ms} ms, over the inertia that its motor moves, is {value:.2}; it must be at most 1, as the servo can reach its torque limit of {limit} N·m"
+        "joint {joint}: a velocity gain of {gain} N·m·s/rad times the engine step of {step_ms} ms, over the inertia that its motor moves, is {value:.2}; it must be at most 1, as the servo can reach its torque limit of {limit} N·m: servo_stiffness_nm_rad is {of_robot}, and may be up to {largest:.1}"
     )]
     Velocity {
         /// Name of the joint.
@@ -83,18 +107,45 @@ pub enum TooStiff {
         value: f64,
         /// Torque limit, N·m.
         limit: f64,
+        /// The robot's stiffness, N·m/rad.
+        of_robot: f64,
+        /// The largest that it could have, N·m/rad.
+        largest: f64,
+    },
+    /// A motor whose torque changes by much within a step: its current limit would not hold.
+    #[error(
+        "joint {joint}: a back-EMF of {back_emf:.3} N·m·s/rad times the engine step of {step_ms} ms, over the inertia that its motor moves, is {value:.2}; it must be at most {BACK_EMF}, or the current limit does not hold within a step"
+    )]
+    BackEmf {
+        /// Name of the joint.
+        joint: String,
+        /// What the joint has of b, N·m·s/rad.
+        back_emf: f64,
+        /// Engine step, ms.
+        step_ms: f64,
+        /// b h / I.
+        value: f64,
     },
 }
+
+/// Bound of b h / I. The current limit is kept at the speed before a step and the back-EMF is that of
+/// the speed after it, so that a motor at its limit may give up to this share more.
+const BACK_EMF: f64 = 0.5;
 
 /// The drives of a robot in a regime, in the order of [`Robot::drives`].
 pub(super) fn of(robot: &Robot, regime: &Regime) -> Vec<WorldDrive> {
     let drives = robot.drives().into_iter().map(|drive| {
         let joint = drive.named_after(robot);
-        let limit = regime.effort.limit(joint);
+        let limit = regime.torque_limit.limit(joint);
         let servo = match regime.servo {
             Servo::DcMotor(motors) => {
                 let efficiency = motors.gear_efficiency(&robot.control);
-                WorldServo::Motor(DcServo::new(joint, efficiency, motors.stiffness, limit))
+                WorldServo::Motor(DcServo::new(
+                    joint,
+                    efficiency,
+                    motors.stiffness_factor,
+                    limit,
+                ))
             }
             Servo::Velocity(law) => WorldServo::Velocity {
                 law,
@@ -111,9 +162,8 @@ pub(super) fn of(robot: &Robot, regime: &Regime) -> Vec<WorldDrive> {
 pub(super) fn add_actuators(spec: &mut MjSpec, robot: &Robot, drives: &[WorldDrive]) {
     for (index, joint) in robot.joints.iter().enumerate() {
         let has = |it: &&WorldDrive| it.drive.joints.contains(&JointId(index));
-        let Some(WorldDrive { servo, .. }) = drives.iter().find(has) else {
-            continue;
-        };
+        let drive = drives.iter().find(has);
+        let WorldDrive { servo, .. } = drive.expect("every joint is one of a drive's");
         let actuator = spec.add_actuator();
         // Every property is stated: a new actuator starts from the model's `<default>`.
         actuator
@@ -174,16 +224,30 @@ pub(super) fn check(
     let step = regime.time_step;
     let step_ms = step * 1e3;
     for WorldDrive { drive, servo } in drives {
+        let of_robot = drive.named_after(robot).servo_stiffness;
         for joint in &drive.joints {
             let per_inertia = model.dof_invweight0()[FREE_JOINT_SPEEDS + joint.0];
             let name = || robot.joints[joint.0].name.clone();
             match servo {
                 WorldServo::Motor(motor) => {
-                    let value = motor.stiffness / drive.sharers() * step * step * per_inertia;
+                    let stiffness = motor.stiffness / drive.sharers();
+                    let value = stiffness * step * step * per_inertia;
                     if value.is_nan() || value > 1.0 {
                         return Err(TooStiff::Motor {
                             joint: name(),
-                            stiffness: motor.stiffness,
+                            stiffness,
+                            of_robot,
+                            largest: of_robot / value,
+                            step_ms,
+                            value,
+                        });
+                    }
+                    let back_emf = motor.back_emf / drive.sharers();
+                    let value = back_emf * step * per_inertia;
+                    if value.is_nan() || value > BACK_EMF {
+                        return Err(TooStiff::BackEmf {
+                            joint: name(),
+                            back_emf,
                             step_ms,
                             value,
                         });
@@ -200,6 +264,8 @@ pub(super) fn check(
                             step_ms,
                             value,
                             limit: *limit,
+                            of_robot,
+                            largest: of_robot / value,
                         });
                     }
                 }
@@ -213,7 +279,7 @@ pub(super) fn check(
 mod tests {
     use std::sync::Arc;
 
-    use prone::regime::{Effort, MotorServo};
+    use prone::regime::{MotorServo, TorqueLimit};
     use prone::robot::{Joint, Motor};
     use prone_files::shipped;
 
@@ -271,7 +337,7 @@ mod tests {
         const STEP: f64 = 0.0025;
         let joint = shoulder();
         let limit = joint.effort_limit;
-        // What made the review's orbit: half of what the limit changes the speed by in a step.
+        // The first leads into a lasting orbit: half of what the limit changes the speed by in a step.
         let knocks = [0.5, 5.0, 15.0].map(|share| share * limit * STEP / INERTIA);
         let law = VelocityServo::RECORDINGS;
         let gain = 20.0;
@@ -282,7 +348,7 @@ mod tests {
             data.step();
             data.actuator_force()[0]
         });
-        assert!(left > 0.9 * limit, "the old servo had been quiet: {left}");
+        assert!(left > 0.9 * limit, "a velocity servo that is quiet: {left}");
         for stiffer in [1.0, 4.0, 10.0] {
             for knock in knocks {
                 let motor = DcServo::new(&joint, 0.6, stiffer, limit);
@@ -339,10 +405,37 @@ mod tests {
             "{said}"
         );
         let out_of_reach = Regime {
-            effort: Effort::Uniform(1000.0),
+            torque_limit: TorqueLimit::Uniform(1000.0),
             ..Regime::TORQUE_STUDY
         };
         assert_eq!(refused(&robot, out_of_reach), None);
+        // Of one motor behind two joints each has half, and half is what is said.
+        robot.joints[neck.0].servo_stiffness = 80.0;
+        let [left, right] = ["LHipPitch", "RHipPitch"].map(|name| robot.joint(name).unwrap());
+        robot.joints[left.0].servo_stiffness = 20_000.0;
+        robot.shared_motors = vec![vec![left, right]];
+        let said = refused(&robot, Regime::LOCOMOTION).unwrap();
+        assert!(
+            said.starts_with("joint LHipPitch: a servo stiffness of 10000 N·m/rad"),
+            "{said}"
+        );
+    }
+
+    /// A motor ten times as strong as its limit lets it be seen gives more than that within a step.
+    #[test]
+    fn limit_a_back_emf_that_a_step_is_too_long_for_is_refused() {
+        let shipped = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
+        let mut robot = Robot::clone(shipped.robot());
+        for joint in &mut robot.joints {
+            joint.motor.as_mut().unwrap().stall *= 10.0;
+        }
+        let said = refused(&robot, Regime::LOCOMOTION).unwrap();
+        assert!(said.contains(": a back-EMF of "), "{said}");
+        let fine = Regime {
+            time_step: 0.0005,
+            ..Regime::LOCOMOTION
+        };
+        assert_eq!(refused(&robot, fine), None);
     }
 
     /// A robot with such a servo makes no world, and the error names it.

@@ -2,7 +2,7 @@
 
 use prone::gait::Gait;
 use prone::gait::cycle::Cycle;
-use prone::regime::{Effort, SOLIMP, SOLREF, Servo, Stops, VelocityServo};
+use prone::regime::{SOLIMP, SOLREF, Servo, Stops, TorqueLimit, VelocityServo};
 use prone::robot::{JointAngles, Robot};
 use prone_sim::{LoadedRobot, World, WorldDrive, WorldServo};
 
@@ -151,19 +151,19 @@ fn regime_info(world: &World, command_step_s: f64) -> RegimeInfo {
         name: regime.name.to_owned(),
         friction: regime.friction,
         impratio: regime.impratio,
-        effort_limit: match regime.effort {
-            Effort::Published => "the maker's".to_owned(),
-            Effort::Uniform(limit) => format!("{limit} N·m on every joint"),
+        effort_limit: match regime.torque_limit {
+            TorqueLimit::Published => "the manufacturer's".to_owned(),
+            TorqueLimit::Uniform(limit) => format!("{limit} N·m on every joint"),
         },
         stops: match regime.stops {
-            Stops::Maker => "the maker's",
+            Stops::Manufacturer => "the manufacturer's",
             Stops::Study => "the study's",
         }
         .to_owned(),
         servo: match regime.servo {
             Servo::DcMotor(motors) => format!(
                 "DC motors, {} times the robot's stiffness, gear efficiency {}",
-                motors.stiffness,
+                motors.stiffness_factor,
                 motors.gear_efficiency(&world.robot().control)
             ),
             Servo::Velocity(VelocityServo { rate, speed, .. }) => {

@@ -2,6 +2,7 @@
 
 use prone::crawl::{CrawlerError, Pilot, SlopeAware, Straight};
 use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale, TimeScaleError};
+use prone::motor::UnknownMotor;
 use prone::regime::{MotorServo, Regime};
 use prone::robot::JointAngles;
 use prone::scene::{Obstacle, Scene, SceneError, SideFriction};
@@ -12,7 +13,9 @@ use prone_record::experiment::{
     SteeringChoice, TextError,
 };
 use prone_record::record_info::CrawlOptions;
-use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, End, LimbsError, check_limbs};
+use prone_sim::crawl::{
+    self, Crawl, CrawlError, CrawlPlan, End, LimbsError, ROW_STEP, check_limbs,
+};
 use prone_sim::{LoadError, LoadedRobot, World, WorldError};
 
 use super::run::{GaitSource, PastObstacles, offsets_by_name};
@@ -75,6 +78,18 @@ pub enum CrawlSetupError {
     /// A number that no crawl can have.
     #[error(transparent)]
     Limit(#[from] Limit),
+    /// An engine step of which rows do not hold a whole number.
+    #[error("an engine step of {seconds} s does not divide the {ROW_STEP} s of a row")]
+    BrokenStep {
+        /// What was asked for, s.
+        seconds: f64,
+    },
+    /// Efficiency was asked of gears whose motors are not known: it would change nothing.
+    #[error("a gear efficiency changes nothing: {source}")]
+    NoGears {
+        /// Whose.
+        source: UnknownMotor,
+    },
     /// Something is drawn at random, and there is no seed.
     #[error("{drawn} cannot be drawn without a seed")]
     NoSeed {
@@ -197,6 +212,10 @@ impl CrawlSetup {
     pub fn new(experiment: &CrawlExperiment) -> Result<Self, CrawlSetupError> {
         check(experiment)?;
         let robot = LoadedRobot::load(experiment.robot.files()?)?;
+        if experiment.gear_efficiency.is_some() {
+            let known = robot.robot().check_motors();
+            known.map_err(|source| CrawlSetupError::NoGears { source })?;
+        }
         let gait = GaitSource::from_text(&experiment.gait)?;
         let uphill = experiment.uphill.as_ref().map(GaitSource::from_text);
         let uphill = uphill.transpose()?;
@@ -381,6 +400,10 @@ fn check(experiment: &CrawlExperiment) -> Result<(), CrawlSetupError> {
     Limit::check("a crawl", " cycles", cycles as f64, bounds)?;
     if let Some(seconds) = experiment.time_step_s {
         Limit::check("an engine step", " s", seconds, TIME_STEPS)?;
+        let steps = ROW_STEP / seconds;
+        if (steps - steps.round()).abs() > 1e-6 {
+            return Err(CrawlSetupError::BrokenStep { seconds });
+        }
     }
     if let Some(efficiency) = experiment.gear_efficiency {
         let bounds = CrawlExperiment::GEAR_EFFICIENCY_BOUNDS;

@@ -5,8 +5,8 @@ use prone::motor::{Effort, Load, Reason, Verdict};
 use prone::regime::Servo;
 use prone::robot::{ContactGroup, Robot};
 use prone::statics::GRAVITY;
-use prone_sim::crawl::{Crawl, CycleRow, Ground};
-use prone_sim::{World, WorldDrive};
+use prone_sim::World;
+use prone_sim::crawl::{Crawl, CycleRow, GroundLoad};
 
 use prone::scene::obstacle_name;
 use prone_record::crawl_summary::{
@@ -53,14 +53,8 @@ pub fn of(
         .chain
         .sides()
         .map(|side| &robot.joints[side.shoulder.0].name);
-    let of_shoulders = |figure: fn(&MotorSummary) -> f64| {
-        let them = joints.iter().filter(|it| shoulders.contains(&&it.joint));
-        them.map(figure).fold(0.0, f64::max)
-    };
-    let (demanded, at_limit) = (
-        of_shoulders(|it| it.demanded_peak_nm),
-        of_shoulders(|it| it.saturated_share),
-    );
+    let of_shoulders = joints.iter().filter(|it| shoulders.contains(&&it.joint));
+    let at_limit = of_shoulders.map(|it| it.saturated_share);
     let contacts = crawl.touches.iter().map(|touch| PlateContact {
         body: robot.bodies[touch.body.0].name.clone(),
         obstacle: obstacle_name(world.obstacles(), touch.obstacle),
@@ -100,8 +94,8 @@ pub fn of(
         recovery_body_share: mean(|cycle| cycle.recovery_body_share),
         peak_torque_over_rated: peak,
         peak_torque_joint: peak_joint,
-        demanded_peak_shoulder_nm: demanded,
-        saturated_shoulder_share: at_limit,
+        demanded_peak_shoulder_nm: world.demanded_of_shoulders(effort),
+        saturated_shoulder_share: at_limit.fold(0.0, f64::max),
         saturated_share: saturated,
         saturated_joint,
         heat_s,
@@ -147,7 +141,8 @@ fn motor_summaries(
 ) -> Vec<MotorSummary> {
     let (robot, seconds) = (world.robot(), effort.seconds);
     let pairs = world.drives().iter().zip(&effort.motors);
-    let summaries = pairs.map(|(WorldDrive { drive, servo }, did)| {
+    let summaries = pairs.map(|(it, did)| {
+        let drive = &it.drive;
         let joint = drive.named_after(robot);
         let used = did.motor_use(robot, drive, seconds, efficiency).ok();
         let names = drive
@@ -162,10 +157,10 @@ fn motor_summaries(
             peak_nm: did.peak,
             rms_nm: did.rms(seconds),
             rms_over_nominal: used.map(|it| it.rms_over_nominal),
-            demanded_peak_nm: servo.stiffness() * did.largest_lag,
+            demanded_peak_nm: it.demanded(did),
             largest_lag_deg: did.largest_lag.to_degrees(),
-            voltage_clipped_share: did.supply_clipped / seconds,
-            saturated_share: did.current_limited / seconds,
+            voltage_clipped_share: used.as_ref().map(|_| effort.of_moving(did.supply_clipped)),
+            saturated_share: effort.of_moving(did.current_limited),
             planned_speed_over_no_load: used.map(|it| it.planned_over_no_load),
             heat_s: used.map(|it| it.heat),
             heat_per_second: used.map(|it| it.heat / seconds),
@@ -177,7 +172,7 @@ fn motor_summaries(
     summaries.collect()
 }
 
-fn ground(carried: &Ground, seconds: f64) -> GroundSummary {
+fn ground(carried: &GroundLoad, seconds: f64) -> GroundSummary {
     let load = |group: ContactGroup| GroupLoad {
         mean_n: carried.impulse[group as usize] / seconds,
         peak_n: carried.peak[group as usize],
@@ -205,7 +200,7 @@ fn verdict(
         effort,
         head,
     };
-    match Verdict::of(&load) {
+    match Verdict::from_load(&load) {
         Ok(Verdict { duty, reasons }) => VerdictSummary {
             duty: Some(duty.name().to_owned()),
             reasons: reasons.into_iter().map(reason).collect(),

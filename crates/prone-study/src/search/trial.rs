@@ -2,10 +2,8 @@
 
 use prone::crawl::Straight;
 use prone::gait::cycle::Cycle;
-use prone::motor::Effort;
 use prone::robot::BodyPart;
 use prone::statics::GRAVITY;
-use prone_sim::World;
 use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, Detail, End};
 
 use super::setting::Setting;
@@ -76,7 +74,7 @@ fn measured(setting: &Setting, crawl: &Crawl) -> Trial {
         top: (crawl.tops.highest(), crawl.tops.part()),
         heat_per_metre: per_metre(last.effort.heat(robot).unwrap_or(f64::NAN), advance.forward),
         peak_over_limit: last.effort.peak_over_limit(robot),
-        demanded_shoulder: demanded_of_shoulders(&setting.world, &last.effort),
+        demanded_shoulder: setting.world.demanded_of_shoulders(&last.effort),
         head: crawl.ground.head_peak(),
         weight: weight(setting),
         body_share: last.body_share,
@@ -86,16 +84,6 @@ fn measured(setting: &Setting, crawl: &Crawl) -> Trial {
 
 fn weight(setting: &Setting) -> f64 {
     setting.world.robot().mass() * GRAVITY
-}
-
-/// Largest torque that the position errors of the shoulders' pitch ask for before any limit, N·m.
-fn demanded_of_shoulders(world: &World, effort: &Effort) -> f64 {
-    let shoulders = world.robot().chain.sides().map(|side| side.shoulder);
-    let pairs = world.drives().iter().zip(&effort.motors);
-    let of_shoulders =
-        pairs.filter(|(it, _)| it.drive.joints.iter().any(|id| shoulders.contains(id)));
-    let demanded = of_shoulders.map(|(it, did)| it.servo.stiffness() * did.largest_lag);
-    demanded.fold(0.0, f64::max)
 }
 
 /// A cost per metre; of what does not advance, infinite.

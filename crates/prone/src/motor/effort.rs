@@ -7,6 +7,8 @@ use crate::robot::{Drive, Robot};
 pub struct Effort {
     /// Over which time, s.
     pub seconds: f64,
+    /// For how much of it the commands moved, s; the rest of it was rest.
+    pub moving: f64,
     /// By [`Robot::drives`].
     pub motors: Vec<MotorEffort>,
 }
@@ -21,14 +23,24 @@ pub struct MotorEffort {
     pub work: f64,
     /// Largest |τ|, N·m.
     pub peak: f64,
-    /// How long its controller asked for more than the supply gives, s.
+    /// For how much of [`Effort::moving`] its controller asked for more than the supply gives, s.
     pub supply_clipped: f64,
-    /// How long the current limit cut what the supply would have given, s.
+    /// For how much of [`Effort::moving`] the current limit cut what the supply would have given, s.
     pub current_limited: f64,
-    /// Largest position error of its joints, rad.
+    /// Largest |position error| that its controller went by, rad; of several joints, their mean's.
     pub largest_lag: f64,
     /// Largest speed of its joints that was commanded, rad/s.
     pub planned_speed: f64,
+}
+
+/// Whether commands move. How well motors follow is a question of the time in which they do: a rest
+/// lets them cool, and makes them no stronger.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Commands {
+    /// They change from one command step to the next.
+    Move,
+    /// They have been the same for longer than that.
+    Rest,
 }
 
 /// What one motor does in one engine step.
@@ -38,7 +50,7 @@ pub struct MotorStep {
     pub torque: f64,
     /// Torque times speed at mid-step, W; of several joints, their sum.
     pub power: f64,
-    /// Largest position error of its joints, rad.
+    /// |Position error| that its controller went by, rad; of several joints, their mean.
     pub lag: f64,
     /// Whether its controller asked for more than the supply gives.
     pub supply_clipped: bool,
@@ -49,20 +61,20 @@ pub struct MotorStep {
 /// What a motor did, in terms of what it can do.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotorUse {
-    /// ∫ (τ / nominal torque)² dt, s.
+    /// ∫ (τ / nominal torque)² dt, s, before gear losses.
     pub heat: f64,
     /// √(∫ τ² dt / time) over what the gear passes on of the nominal torque.
     pub rms_over_nominal: f64,
     /// Largest commanded speed over the no-load speed.
     pub planned_over_no_load: f64,
-    /// What the winding loses, J ([`crate::robot::Motor::winding_loss`]).
+    /// What the winding loses, J, before gear losses ([`crate::robot::Motor::winding_loss`]).
     pub winding_loss: f64,
 }
 
 /// A motor of which too little is known.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "joint {joint} has no motor with all its figures in robot.toml, without which nothing is known of heat"
+    "joint {joint} has no motor with all of its figures in robot.toml (ratio, nominal and stall torque, no-load speed), without which its load is not known"
 )]
 pub struct UnknownMotor {
     /// Name of the joint.
@@ -70,16 +82,16 @@ pub struct UnknownMotor {
 }
 
 impl MotorEffort {
-    /// Adds a step of some length, s.
-    pub fn add_step(&mut self, step: &MotorStep, seconds: f64) {
+    /// Adds a step of some length, s, in which commands moved or rested.
+    pub fn add_step(&mut self, step: &MotorStep, seconds: f64, commands: Commands) {
         self.square += step.torque * step.torque * seconds;
         self.work += step.power.max(0.0) * seconds;
         self.peak = self.peak.max(step.torque.abs());
         self.largest_lag = self.largest_lag.max(step.lag);
-        if step.supply_clipped {
+        if step.supply_clipped && commands == Commands::Move {
             self.supply_clipped += seconds;
         }
-        if step.current_limited {
+        if step.current_limited && commands == Commands::Move {
             self.current_limited += seconds;
         }
     }
@@ -97,6 +109,15 @@ impl MotorEffort {
     /// √(∫ τ² dt / time), N·m.
     pub fn rms(&self, seconds: f64) -> f64 {
         (self.square / seconds).sqrt()
+    }
+
+    /// ∫ (τ / nominal torque)² dt of a motor of a robot, s, before gear losses.
+    ///
+    /// # Errors
+    /// [`UnknownMotor`] where its figures are not known.
+    pub fn heat(&self, robot: &Robot, drive: &Drive) -> Result<f64, UnknownMotor> {
+        // Neither time nor gear is in it.
+        self.motor_use(robot, drive, 1.0, 1.0).map(|it| it.heat)
     }
 
     /// What a motor of a robot did over a time, s, behind a gear of some efficiency.
@@ -131,21 +152,45 @@ impl Effort {
     pub fn none(robot: &Robot) -> Self {
         Self {
             seconds: 0.0,
+            moving: 0.0,
             motors: vec![MotorEffort::default(); robot.drives().len()],
         }
     }
 
-    /// Adds what every motor did in a step of some length, s.
-    pub fn add_step(&mut self, steps: &[MotorStep], seconds: f64) {
+    /// What each motor did, with the joints that it turns.
+    ///
+    /// # Panics
+    /// Where it is the effort of a robot with another number of motors.
+    pub fn by_drive(&self, robot: &Robot) -> Vec<(Drive, &MotorEffort)> {
+        let drives = robot.drives();
+        assert_eq!(drives.len(), self.motors.len(), "efforts of another robot");
+        drives.into_iter().zip(&self.motors).collect()
+    }
+
+    /// Adds what every motor did in a step of some length, s, while commands moved or rested.
+    pub fn add_step(&mut self, steps: &[MotorStep], seconds: f64, commands: Commands) {
         self.seconds += seconds;
+        if commands == Commands::Move {
+            self.moving += seconds;
+        }
         for (motor, step) in self.motors.iter_mut().zip(steps) {
-            motor.add_step(step, seconds);
+            motor.add_step(step, seconds, commands);
+        }
+    }
+
+    /// Share that a part of [`Self::moving`] has in it; 0 where nothing moved.
+    pub fn of_moving(&self, seconds: f64) -> f64 {
+        if self.moving > 0.0 {
+            seconds / self.moving
+        } else {
+            0.0
         }
     }
 
     /// Adds what was done in another time.
     pub fn add(&mut self, other: &Self) {
         self.seconds += other.seconds;
+        self.moving += other.moving;
         for (motor, other) in self.motors.iter_mut().zip(&other.motors) {
             motor.add(other);
         }
@@ -156,12 +201,8 @@ impl Effort {
     /// # Errors
     /// [`UnknownMotor`]: the heat of some motors is not that of the robot.
     pub fn heat(&self, robot: &Robot) -> Result<f64, UnknownMotor> {
-        let drives = robot.drives();
-        let heats = drives.iter().zip(&self.motors).map(|(drive, motor)| {
-            let it = motor.motor_use(robot, drive, 1.0, 1.0)?;
-            Ok(it.heat)
-        });
-        heats.sum()
+        let motors = self.by_drive(robot).into_iter();
+        motors.map(|(drive, motor)| motor.heat(robot, &drive)).sum()
     }
 
     /// ∫ Σ max(P, 0) dt, J.
@@ -171,8 +212,8 @@ impl Effort {
 
     /// The largest |τ| over the effort limit, and the joint that its motor is named after.
     pub fn peak_over_limit(&self, robot: &Robot) -> (f64, String) {
-        let drives = robot.drives();
-        let shares = drives.iter().zip(&self.motors).map(|(drive, motor)| {
+        let motors = self.by_drive(robot).into_iter();
+        let shares = motors.map(|(drive, motor)| {
             let joint = drive.named_after(robot);
             (motor.peak / joint.effort_limit, &joint.name)
         });

@@ -3,16 +3,15 @@
 //! | measure | continuous | limited |
 //! |---|---:|---:|
 //! | RMS torque over what the gear passes on of the nominal torque | 1 | 1.7 |
-//! | share of the time in which the supply's voltage is not enough | 25 % | 50 % |
-//! | share of the time at the current limit | 5 % | 10 % |
+//! | share of the time in which commands move where the supply's voltage is not enough | 25 % | 50 % |
+//! | share of that time at the current limit | 5 % | 10 % |
 //! | planned speed over the no-load speed | 0.8 | 1.6 |
 //! | force on the head, mean over 20 ms, N | 1 | 2 |
 //!
 //! *Continuous* is within the first column and may go on; *limited* is within the second, for
-//! minutes; anything else is *not on a robot*. A gait is judged by its worst motor. The share of the
-//! voltage was chosen where the shipped cycles part: `gentle` is clipped for 1 % of the time,
-//! `efficient` for 18, `thesis-nominal`, which a robot did in 2015, for 20, `low-200` and `low-175`,
-//! whose arms do not follow, for more than 50.
+//! minutes; anything else is *not on a robot*. A gait is judged by its worst motor. Where the bounds
+//! come from is said in decision 24: the nominal torque is the manufacturer's word for what can go on,
+//! the share of the voltage parts the cycles that ship, and the others are a judgement.
 
 use crate::robot::Robot;
 
@@ -21,14 +20,16 @@ use super::effort::{Effort, UnknownMotor};
 /// Mean force over 20 ms from which on the head carries weight, N.
 pub const HEAD_CARRIES: f64 = 1.0;
 
-/// Share of the time for which a controller may ask for more than the supply gives.
+/// Share of the time in which commands move, for which a controller may ask for more than the supply gives.
 const SUPPLY_CLIPPED: f64 = 0.25;
-/// Share of the time for which a motor may be at its current limit.
+/// Share of the time in which commands move, for which a motor may be at its current limit.
 const CURRENT_LIMITED: f64 = 0.05;
-/// Share of the no-load speed that may be planned: beyond it no torque is left for the load.
+/// Share of the no-load speed that may be planned: a fifth of the stall torque is left there.
 const PLANNED_SPEED: f64 = 0.8;
-/// RMS over nominal torque at which a motor warms by 1.7² of what it can go on with: minutes.
+/// RMS over nominal torque at which a winding warms three times as fast as it can go on with.
 const MINUTES: f64 = 1.7;
+/// How far beyond what can go on for ever the other measures may be for minutes.
+const FOR_MINUTES: f64 = 2.0;
 
 /// How long a robot's motors could go on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -46,9 +47,9 @@ pub enum Duty {
 pub enum Measure {
     /// RMS torque over what the gear passes on of the nominal torque.
     RmsTorque,
-    /// Share of the time in which the supply's voltage is not enough.
+    /// Share of the time in which commands move where the supply's voltage is not enough.
     SupplyClipped,
-    /// Share of the time at the current limit.
+    /// Share of the time in which commands move at the current limit.
     CurrentLimited,
     /// Planned speed over the no-load speed.
     PlannedSpeed,
@@ -72,7 +73,7 @@ pub struct Reason {
 pub struct Verdict {
     /// How long it could go on.
     pub duty: Duty,
-    /// All that is beyond the bound of [`Duty::Continuous`], in the order of [`Measure::ALL`].
+    /// All that is beyond the bound of [`Duty::Continuous`], in the order of [`Measure`].
     pub reasons: Vec<Reason>,
 }
 
@@ -101,15 +102,6 @@ impl Duty {
 }
 
 impl Measure {
-    /// All measures.
-    pub const ALL: [Self; 5] = [
-        Self::RmsTorque,
-        Self::SupplyClipped,
-        Self::CurrentLimited,
-        Self::PlannedSpeed,
-        Self::Head,
-    ];
-
     /// In words.
     pub const fn name(self) -> &'static str {
         match self {
@@ -125,10 +117,10 @@ impl Measure {
     pub const fn bounds(self) -> (f64, f64) {
         match self {
             Self::RmsTorque => (1.0, MINUTES),
-            Self::SupplyClipped => (SUPPLY_CLIPPED, 2.0 * SUPPLY_CLIPPED),
-            Self::CurrentLimited => (CURRENT_LIMITED, 2.0 * CURRENT_LIMITED),
-            Self::PlannedSpeed => (PLANNED_SPEED, 2.0 * PLANNED_SPEED),
-            Self::Head => (HEAD_CARRIES, 2.0 * HEAD_CARRIES),
+            Self::SupplyClipped => (SUPPLY_CLIPPED, FOR_MINUTES * SUPPLY_CLIPPED),
+            Self::CurrentLimited => (CURRENT_LIMITED, FOR_MINUTES * CURRENT_LIMITED),
+            Self::PlannedSpeed => (PLANNED_SPEED, FOR_MINUTES * PLANNED_SPEED),
+            Self::Head => (HEAD_CARRIES, FOR_MINUTES * HEAD_CARRIES),
         }
     }
 
@@ -150,7 +142,7 @@ impl Verdict {
     ///
     /// # Errors
     /// [`UnknownMotor`]: without a motor's figures there is no judgement.
-    pub fn of(load: &Load<'_>) -> Result<Self, UnknownMotor> {
+    pub fn from_load(load: &Load<'_>) -> Result<Self, UnknownMotor> {
         let Load {
             robot,
             gear_efficiency,
@@ -159,12 +151,18 @@ impl Verdict {
         } = *load;
         let seconds = effort.seconds;
         let mut worst: Vec<Reason> = Vec::new();
-        for (drive, motor) in robot.drives().iter().zip(&effort.motors) {
-            let it = motor.motor_use(robot, drive, seconds, gear_efficiency)?;
+        for (drive, motor) in effort.by_drive(robot) {
+            let it = motor.motor_use(robot, &drive, seconds, gear_efficiency)?;
             for (measure, value) in [
                 (Measure::RmsTorque, it.rms_over_nominal),
-                (Measure::SupplyClipped, motor.supply_clipped / seconds),
-                (Measure::CurrentLimited, motor.current_limited / seconds),
+                (
+                    Measure::SupplyClipped,
+                    effort.of_moving(motor.supply_clipped),
+                ),
+                (
+                    Measure::CurrentLimited,
+                    effort.of_moving(motor.current_limited),
+                ),
                 (Measure::PlannedSpeed, it.planned_over_no_load),
             ] {
                 let reason = Reason {
@@ -173,8 +171,9 @@ impl Verdict {
                     value,
                 };
                 match worst.iter_mut().find(|it| it.measure == measure) {
-                    Some(other) if value <= other.value => {}
-                    Some(other) => *other = reason,
+                    // NaN is the worst, and stays.
+                    Some(other) if value.is_nan() || value > other.value => *other = reason,
+                    Some(_) => {}
                     None => worst.push(reason),
                 }
             }
@@ -219,7 +218,7 @@ mod tests {
     fn judged(head: f64, change: impl FnOnce(&mut [MotorEffort])) -> Verdict {
         let robot = robot();
         let mut effort = Effort::none(&robot);
-        effort.seconds = 10.0;
+        (effort.seconds, effort.moving) = (20.0, 10.0);
         change(&mut effort.motors);
         let load = Load {
             robot: &robot,
@@ -227,13 +226,13 @@ mod tests {
             effort: &effort,
             head,
         };
-        Verdict::of(&load).unwrap()
+        Verdict::from_load(&load).unwrap()
     }
 
     #[test]
     fn each_measure_decides_at_its_own_bounds() {
         assert_eq!(judged(0.0, |_| {}).duty, Duty::Continuous);
-        let square = |over: f64| (over * 0.6 * 0.5) * (over * 0.6 * 0.5) * 10.0;
+        let square = |over: f64| (over * 0.6 * 0.5) * (over * 0.6 * 0.5) * 20.0;
         let changes: [(Measure, Change); 3] = [
             (Measure::SupplyClipped, |it, v| it.supply_clipped = v * 10.0),
             (Measure::CurrentLimited, |it, v| {
@@ -273,6 +272,32 @@ mod tests {
         }
     }
 
+    /// The table at the top of this file.
+    #[test]
+    fn bounds_are_those_of_the_table() {
+        for (measure, bounds) in [
+            (Measure::RmsTorque, (1.0, 1.7)),
+            (Measure::SupplyClipped, (0.25, 0.5)),
+            (Measure::CurrentLimited, (0.05, 0.1)),
+            (Measure::PlannedSpeed, (0.8, 1.6)),
+            (Measure::Head, (1.0, 2.0)),
+        ] {
+            assert_eq!(measure.bounds(), bounds, "{measure:?}");
+        }
+    }
+
+    /// Whichever motor it is of.
+    #[test]
+    fn limit_what_is_no_number_is_not_on_a_robot() {
+        for index in [0, 5] {
+            let verdict = judged(0.0, |motors| {
+                motors[index].square = f64::NAN;
+                motors[3].square = 0.01;
+            });
+            assert_eq!(verdict.duty, Duty::NotOnARobot, "{index}");
+        }
+    }
+
     #[test]
     fn reasons_name_the_worst_motor() {
         let verdict = judged(0.0, |motors| {
@@ -293,6 +318,7 @@ mod tests {
         robot.joints[1].motor = None;
         let effort = Effort {
             seconds: 1.0,
+            moving: 1.0,
             ..Effort::none(&robot)
         };
         let load = Load {
@@ -301,7 +327,7 @@ mod tests {
             effort: &effort,
             head: 0.0,
         };
-        let error = Verdict::of(&load).unwrap_err();
+        let error = Verdict::from_load(&load).unwrap_err();
         assert_eq!(error.joint, robot.joints[1].name);
     }
 }

@@ -18,6 +18,8 @@ pub const SPEED: f64 = 1e3;
 pub const STIFFNESS: f64 = 1e5;
 /// Longest time between two commands, s.
 pub const COMMAND_STEP: f64 = 1.0;
+/// Efficiencies of gears: from worm gears to no loss at all.
+pub const GEAR_EFFICIENCY: (f64, f64) = (0.05, 1.0);
 /// Largest gain of steering, without unit or in rad/m.
 pub const STEERING: f64 = 100.0;
 /// Largest slope above which another cycle is taken, rad: a wall.

@@ -202,7 +202,11 @@ fn identity_energy_closes_and_forces_balance_over_a_cycle() {
         };
         let world = World::new(&robot, regime).unwrap();
         let audit = audited(&world, gait);
-        let case = format!("{gait}, {} × K, {} ms", servo.stiffness, time_step * 1e3);
+        let case = format!(
+            "{gait}, {} × K, {} ms",
+            servo.stiffness_factor,
+            time_step * 1e3
+        );
         let (energy, force) = audit.left.unwrap();
         let share = energy / audit.positive;
         assert!(audit.positive > 3.0, "{case}: {audit:?}");
@@ -300,6 +304,18 @@ fn identity_rows_add_up_to_the_crawl() {
         assert!(near(sum.work(), crawl.effort.work()), "{gait}");
         let (rows, whole) = (sum.heat(robot).unwrap(), crawl.effort.heat(robot).unwrap());
         assert!(near(rows, whole), "{gait}: {rows} {whole}");
+        for group in 0..ContactGroup::COUNT {
+            let cycles: f64 = crawl.cycles.iter().map(|it| it.ground.impulse[group]).sum();
+            let rows = crawl
+                .rows
+                .iter()
+                .map(|it| it.contact[group] * it.effort.seconds);
+            let (rows, whole) = (rows.sum::<f64>(), crawl.ground.impulse[group]);
+            assert!(
+                near(cycles, whole) && near(rows, whole),
+                "{gait}: {rows} {cycles} {whole}"
+            );
+        }
         let last = crawl.rows.last().unwrap();
         assert!(near(last.time, crawl.effort.seconds), "{gait}");
         // From rest to an extension that is nearly at rest, over seconds: 1 % of the weight.
@@ -347,7 +363,7 @@ fn identity_a_finer_step_changes_nothing() {
         let [coarse, fine] =
             [0.0025, 0.0005].map(|time_step| measured(&robot, gait, servo, time_step));
         let over = |a: f64, b: f64| a / b - 1.0;
-        let case = format!("{gait}, {} × K", servo.stiffness);
+        let case = format!("{gait}, {} × K", servo.stiffness_factor);
         let found = [
             over(coarse.heat, fine.heat),
             over(coarse.work, fine.work),

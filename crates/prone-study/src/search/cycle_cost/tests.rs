@@ -305,7 +305,7 @@ fn limit_what_cannot_be_compared_is_refused() {
     };
     assert_eq!(
         refused(unknown, heat),
-        "joint HeadYaw has no motor with all its figures in robot.toml, without which nothing is known of heat"
+        "joint HeadYaw has no motor with all of its figures in robot.toml (ratio, nominal and stall torque, no-load speed), without which its load is not known"
     );
 }
 

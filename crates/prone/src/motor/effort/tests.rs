@@ -14,7 +14,7 @@ const STEP: MotorStep = MotorStep {
 fn after(steps: &[MotorStep]) -> MotorEffort {
     let mut effort = MotorEffort::default();
     for step in steps {
-        effort.add_step(step, 0.1);
+        effort.add_step(step, 0.1, Commands::Move);
     }
     effort
 }
@@ -150,7 +150,7 @@ fn a_shared_motor_has_one_heat() {
         torque: 1.0,
         ..STEP
     };
-    effort.motors[1].add_step(&step, 0.1);
+    effort.motors[1].add_step(&step, 0.1, Commands::Move);
     near(effort.heat(&robot).unwrap(), 0.1 / 0.25);
     assert_eq!(effort.motors.len(), robot.joints.len() - 1);
 }
