@@ -289,7 +289,7 @@ fn print_heights(sheet: &GaitSheet, out: &mut impl std::io::Write) -> std::io::R
 heights and stride of the planned chain
   ankle's highest point (joint centre)  {:>7.1} mm
   highest point of the body             {:>7.1} mm
-  lowest point of trunk and legs        {:>7.1} mm",
+  lowest point of trunk, head and legs  {:>7.1} mm",
         sheet.ankle_peak_mm, sheet.top_mm, sheet.body_bottom_mm
     )?;
     if sheet.body_bottom_mm < 0.0 {

@@ -34,6 +34,7 @@ pub(crate) fn files(name: Option<&Path>) -> Result<RobotFiles, Failure> {
 
 pub(crate) fn check(args: &RobotCheckArgs) -> Result<(), Failure> {
     let loaded = load(args.robot.name())?;
+    loaded.files().recorded().map_err(Failure::input)?;
     World::new(&loaded, Regime::LOCOMOTION).map_err(Failure::input)?;
     // A robot that crawls is a robot; the study's servos are not its own.
     let no_torque_study = match World::new(&loaded, Regime::TORQUE_STUDY) {

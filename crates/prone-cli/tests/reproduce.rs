@@ -154,20 +154,18 @@ fn a_recorded_version_that_is_not_there_is_refused_by_its_line() {
     fs::write(home.path().join("nao/family.toml"), family).unwrap();
     let out = home.path().join("result");
     let robot = home.path().join("nao");
-    let refused = prone(&[
-        "reproduce",
-        "--robot",
-        robot.to_str().unwrap(),
-        "--out",
-        out.to_str().unwrap(),
-    ]);
-    let message = String::from_utf8(refused.stderr).unwrap();
-    assert_eq!(refused.status.code(), Some(2), "{message}");
-    assert!(
-        message.contains("nao/family.toml:3:12: there is no "),
-        "{message}"
-    );
-    assert!(message.contains("nao/attic/robot.toml"), "{message}");
+    let (robot, to) = (robot.to_str().unwrap(), out.to_str().unwrap());
+    let reproduce = ["reproduce", "--robot", robot, "--out", to];
+    for command in [&reproduce[..], &["robot", "check", robot]] {
+        let refused = prone(command);
+        let message = String::from_utf8(refused.stderr).unwrap();
+        assert_eq!(refused.status.code(), Some(2), "{message}");
+        assert!(
+            message.contains("nao/family.toml:3:12: there is no "),
+            "{message}"
+        );
+        assert!(message.contains("nao/attic/robot.toml"), "{message}");
+    }
     assert!(!out.exists());
 }
 

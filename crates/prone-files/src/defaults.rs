@@ -4,7 +4,7 @@
 //! [defaults.pull]
 //! from = "nominal"                   # what a search of pulls starts from
 //! compared = ["nominal", "optimal"]  # beside which a found pull is simulated
-//! body_share_of = "optimal"          # trunk and legs carry no larger share of the weight
+//! body_share_of = "optimal"          # trunk, head and legs carry no larger share of the weight
 //!
 //! [defaults.cycle]
 //! from = ["low-175", "low-165"]      # what a search of cycles starts from
@@ -40,7 +40,7 @@ pub struct PullDefaults {
     pub from: String,
     /// The pulls that a found one is compared with, as far as the robot can follow them.
     pub compared: Vec<String>,
-    /// The pull whose share of the weight on trunk and legs is a found one's limit.
+    /// The pull whose share of the weight on trunk, head and legs is a found one's limit.
     pub body_share_of: String,
 }
 

@@ -123,7 +123,7 @@ pub struct Row {
     pub peak_of_effort: f64,
     /// The joint that has it.
     pub peak_joint: &'static str,
-    /// Share of the normal force on trunk and legs, percent.
+    /// Share of the normal force on trunk, head and legs, percent.
     pub body_share_percent: f64,
     /// From where on toes and elbows carry most of the weight to the end, percent of the phase;
     /// `None` where they do not.

@@ -131,7 +131,7 @@ pub struct GradedPlan {
     /// The rules, with the height of the base gait's hip where it is the clearance.
     #[serde(flatten)]
     pub rules: PullRules,
-    /// The gait whose share of the weight on trunk and legs is the limit.
+    /// The gait whose share of the weight on trunk, head and legs is the limit.
     pub body_share_of: Option<String>,
     /// That share.
     pub body_share_percent: Option<f64>,

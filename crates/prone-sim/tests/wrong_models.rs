@@ -401,7 +401,7 @@ const TABLES: &[Refusal] = &[
     (
         "gear_efficiency = 0.6",
         "gear_efficiency = 1.1",
-        "nao/robot.toml:373:19: gear_efficiency must be at most 1, not 1.1",
+        "nao/robot.toml:373:19: gear_efficiency must be within 0.05..1, not 1.1",
     ),
     (
         "speed_rad_s = 7.45          # published 8.27",

@@ -162,7 +162,7 @@ pub(crate) fn planned_poses(
     robot.forward_kinematics(standing, joints)
 }
 
-/// Lowest point of what toes and elbows are to keep off the floor, trunk and legs, m.
+/// Lowest point of what toes and elbows are to keep off the floor, trunk, head and legs, m.
 pub(crate) fn body_bottom(robot: &Robot, poses: &BodyPoses<Ground>) -> f64 {
     robot.bottom(poses, |shape: &Shape| {
         robot.bodies[shape.body.0].contact_group.is_body()

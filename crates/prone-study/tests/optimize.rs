@@ -72,7 +72,7 @@ fn ratio(
 }
 
 /// A prototype of the same set-up, written independently, has .839 at 3 s and .857 at 5 s
-/// (SIMULATION.md §8), with the masses of the V5. Two engines' releases and two programs may differ
+/// with the masses of the V5. Two engines' releases and two programs may differ
 /// by one percent.
 #[test]
 fn reference_the_published_optimum_over_nominal() {

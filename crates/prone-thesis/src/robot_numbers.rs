@@ -15,7 +15,7 @@ pub struct RobotNumbers {
     pub mass_kg: f64,
     /// Height of the lowest joint centre in the planned chains, mm above the floor.
     pub lowest_centre_mm: f64,
-    /// How far trunk and legs would then reach into the floor, mm.
+    /// How far trunk, head and legs would then reach into the floor, mm.
     pub sunk_mm: f64,
     /// By the robot's own geometry.
     #[serde(flatten)]

@@ -63,7 +63,7 @@ fn reference_torques_follow_the_recordings() {
     }
 }
 
-/// Sign and side of the records: minus the actuator torque, right side. (Costs are even in the
+/// Sign and side of the records: minus the applied torque, right side. (Costs are even in the
 /// torque, and left and right differ by up to 0.08 N·m.)
 #[test]
 fn regression_records_are_minus_the_right_actuators() {

@@ -113,7 +113,7 @@ pub(crate) struct CrawlRunArgs {
     /// What all durations of the cycle are multiplied by
     #[arg(long, value_name = "X", default_value = "1", value_parser = time_scale, allow_negative_numbers = true)]
     pub(crate) time_scale: TimeScale,
-    /// Rest after each cycle, s, in the posture from which the next pull begins: motors cool meanwhile
+    /// Rest after each cycle, s, in the posture from which the next pull begins: shoulders cool, hips hold the legs
     #[arg(long, value_name = "S", default_value = "0", value_parser = rest, allow_negative_numbers = true)]
     pub(crate) rest_s: f64,
     /// Stiffness of the servos

@@ -94,7 +94,7 @@ pub(crate) struct OptimizeArgs {
     /// [default: any]
     #[arg(long, value_name = "NM", value_parser = positive_number, allow_negative_numbers = true)]
     pub(crate) demanded_shoulder_nm: Option<f64>,
-    /// cycle: largest share of the weight on trunk and legs in the pull, percent [default: any]
+    /// cycle: largest share of the weight on trunk, head and legs in the pull, percent [default: any]
     #[arg(long, value_name = "P", value_parser = percent, allow_negative_numbers = true)]
     pub(crate) body_share_percent: Option<f64>,
     /// cycle, heat and peak: heat is the larger of those with normal and with stiff servos, each over

@@ -44,7 +44,7 @@ pub(crate) struct PullTermsArgs {
     /// the gait of --from) or `none` (no rule: it is clamped) [default: base]
     #[arg(long, value_enum)]
     pub(crate) limits: Option<LimitsName>,
-    /// dynamics: trunk and legs carry no larger share of the weight than in this gait
+    /// dynamics: trunk, head and legs carry no larger share of the weight than in this gait
     /// [default: that of the robot's [defaults], of the NAO optimal; the gait of --from where the robot
     /// cannot follow it]
     #[arg(long, value_name = "GAIT")]

@@ -109,7 +109,7 @@ pub enum ClearanceChoice {
     Base,
     /// The hip's centre, mm.
     HipMm(f64),
-    /// The lowest point of trunk and legs, mm.
+    /// The lowest point of trunk, head and legs, mm.
     BodyMm(f64),
 }
 
@@ -131,14 +131,14 @@ pub enum TorqueChoice {
     Statics,
     /// A simulation of each pull.
     Dynamics {
-        /// The gait whose share of the weight on trunk and legs is the limit.
+        /// The gait whose share of the weight on trunk, head and legs is the limit.
         body_share_of: BodyShareOf,
     },
     /// A torque map.
     Map(TextFile),
 }
 
-/// The gait whose share of the weight on trunk and legs is the limit.
+/// The gait whose share of the weight on trunk, head and legs is the limit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum BodyShareOf {

@@ -144,7 +144,7 @@ pub struct CycleRulesChoice {
     pub least_advance_mm: Option<f64>,
     /// Largest torque that the position error of a shoulder may ask for before any limit, N·m.
     pub demanded_shoulder_nm: Option<f64>,
-    /// Largest share of the weight on trunk and legs, percent.
+    /// Largest share of the weight on trunk, head and legs, percent.
     pub body_share_percent: Option<f64>,
     /// Largest heat, s/m, or the share of that of another cycle.
     pub most_heat: Option<f64>,

@@ -64,7 +64,7 @@ pub struct CycleRow {
     pub effort: Effort,
     /// What the ground carried.
     pub ground: GroundLoad,
-    /// Share of the ground's force on trunk and legs during the pull.
+    /// Share of the ground's force on trunk, head and legs during the pull.
     pub body_share: f64,
     /// The same during the recovery, in which limbs go back and the body may lie.
     pub recovery_body_share: f64,

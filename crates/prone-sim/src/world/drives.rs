@@ -112,25 +112,7 @@ pub enum TooStiff {
         /// The largest that it could have, N·m/rad.
         largest: f64,
     },
-    /// A motor whose torque changes by much within a step: its current limit would not hold.
-    #[error(
-        "joint {joint}: a back-EMF of {back_emf:.3} N·m·s/rad times the engine step of {step_ms} ms, over the inertia that its motor moves, is {value:.2}; it must be at most {BACK_EMF}, or the current limit does not hold within a step"
-    )]
-    BackEmf {
-        /// Name of the joint.
-        joint: String,
-        /// What the joint has of b, N·m·s/rad.
-        back_emf: f64,
-        /// Engine step, ms.
-        step_ms: f64,
-        /// b h / I.
-        value: f64,
-    },
 }
-
-/// Bound of b h / I. The current limit is kept at the speed before a step and the back-EMF is that of
-/// the speed after it, so that a motor at its limit may give up to this share more.
-const BACK_EMF: f64 = 0.5;
 
 /// The drives of a robot in a regime, in the order of [`Robot::drives`].
 pub(super) fn of(robot: &Robot, regime: &Regime) -> Vec<WorldDrive> {
@@ -238,16 +220,6 @@ pub(super) fn check(
                             stiffness,
                             of_robot,
                             largest: of_robot / value,
-                            step_ms,
-                            value,
-                        });
-                    }
-                    let back_emf = motor.back_emf / drive.sharers();
-                    let value = back_emf * step * per_inertia;
-                    if value.is_nan() || value > BACK_EMF {
-                        return Err(TooStiff::BackEmf {
-                            joint: name(),
-                            back_emf,
                             step_ms,
                             value,
                         });
@@ -419,23 +391,6 @@ mod tests {
             said.starts_with("joint LHipPitch: a servo stiffness of 10000 N·m/rad"),
             "{said}"
         );
-    }
-
-    /// A motor ten times as strong as its limit lets it be seen gives more than that within a step.
-    #[test]
-    fn limit_a_back_emf_that_a_step_is_too_long_for_is_refused() {
-        let shipped = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
-        let mut robot = Robot::clone(shipped.robot());
-        for joint in &mut robot.joints {
-            joint.motor.as_mut().unwrap().stall *= 10.0;
-        }
-        let said = refused(&robot, Regime::LOCOMOTION).unwrap();
-        assert!(said.contains(": a back-EMF of "), "{said}");
-        let fine = Regime {
-            time_step: 0.0005,
-            ..Regime::LOCOMOTION
-        };
-        assert_eq!(refused(&robot, fine), None);
     }
 
     /// A robot with such a servo makes no world, and the error names it.

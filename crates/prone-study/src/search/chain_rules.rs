@@ -70,7 +70,7 @@ pub enum Clearance {
     Free,
     /// The hip's centre, m.
     Hip(f64),
-    /// The lowest point of trunk and legs, by the robot's own shapes, m.
+    /// The lowest point of trunk, head and legs, by the robot's own shapes, m.
     Body(f64),
 }
 

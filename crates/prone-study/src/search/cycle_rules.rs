@@ -36,7 +36,7 @@ pub struct CycleRules {
     pub ceiling: f64,
     /// Least advance per cycle where values count, m.
     pub advance: f64,
-    /// Largest share of the weight on trunk and legs during the pull, 0 to 1.
+    /// Largest share of the weight on trunk, head and legs during the pull, 0 to 1.
     pub body_share: f64,
     /// Largest duration of a cycle, s.
     pub seconds: f64,

@@ -4,7 +4,7 @@
 //! breaks is graded first ([`graded::violations`]), and a search does not simulate such a gait. The
 //! same holds for one that the robot cannot be commanded or that makes the simulation diverge: it has
 //! the rule [`Rule::Torque`] broken, and a violation of at least 1 puts it behind every gait that was
-//! simulated. In simulation the share of the weight on trunk and legs may not pass a limit, or the
+//! simulated. In simulation the share of the weight on trunk, head and legs may not pass a limit, or the
 //! search lays the robot on its belly, where torque costs nothing.
 //!
 //! [`graded::violations`]: prone::cost::graded::violations

@@ -68,7 +68,7 @@ pub struct PullTerms {
     pub rules: ChainRules,
     /// How long a pull lasts. A phase of equal postures costs in proportion to it.
     pub duration: PhaseDuration,
-    /// Largest share of the weight on trunk and legs in simulation, 0 to 1.
+    /// Largest share of the weight on trunk, head and legs in simulation, 0 to 1.
     pub body_share: f64,
     /// The gait whose share that is, where it is one's.
     pub body_share_of: Option<String>,
@@ -323,7 +323,7 @@ pub fn lowest_hip(world: &World, gait: &Gait) -> Result<Clearance, MappingError>
     Ok(Clearance::Hip(lowest - HIP_TOLERANCE))
 }
 
-/// The share of the weight on trunk and legs in a gait's simulated pull, 0 to 1.
+/// The share of the weight on trunk, head and legs in a gait's simulated pull, 0 to 1.
 ///
 /// # Errors
 /// [`PullError`] where it cannot be simulated.

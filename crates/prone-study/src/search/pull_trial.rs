@@ -2,7 +2,7 @@
 //!
 //! Torque is **joint torque in the sign of the recordings**, of the right side, averaged over
 //! control steps, as in [`prone_record::pulls`]; its integral is that of the published study
-//! ([`prone::cost::squared_torque_integral`]). The share of the weight that trunk and legs carry is
+//! ([`prone::cost::squared_torque_integral`]). The share of the weight that trunk, head and legs carry is
 //!
 //! ```text
 //! share = ∫ (N_torso + N_leg) dt / ∫ Σ N dt                                      (1)

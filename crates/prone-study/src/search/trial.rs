@@ -30,7 +30,7 @@ pub struct Trial {
     pub head: f64,
     /// Weight of the robot, N.
     pub weight: f64,
-    /// Share of the weight on trunk and legs in the pull.
+    /// Share of the weight on trunk, head and legs in the pull.
     pub body_share: f64,
     /// Change of heading, rad.
     pub yaw: f64,

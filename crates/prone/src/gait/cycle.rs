@@ -40,8 +40,8 @@ pub struct Cycle {
     pub recovery: Vec<Waypoint>,
     /// The last stretch, to the first posture of the next pull.
     pub approach: Approach,
-    /// How long it rests at its end, in the posture from which the next pull begins, s; whatever the
-    /// time scale.
+    /// How long it rests at its end, in the posture from which the next pull begins, s; a time scale
+    /// does not stretch it.
     pub rest: f64,
     /// How it turns, where it can.
     pub steering: Option<Steering>,

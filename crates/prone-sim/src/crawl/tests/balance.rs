@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use prone::crawl::{Crawler, Event, Halt, Straight, Watch, drive};
 use prone::gait::PhaseDuration;
 use prone::regime::{CONTROL_STEP, MotorServo, Regime};
+use prone::robot::ContactGroup;
 use prone::statics::GRAVITY;
 use prone_files::shipped;
 
