@@ -118,7 +118,7 @@ impl World {
             Stops::Study => robot.study_stops(),
         };
         let scenery = Scenery::from_scene(scene);
-        let drives = drives::of(&robot, &regime);
+        let drives = drives::in_regime(&robot, &regime);
         let compiled = compile(loaded, regime, &stops, &drives, &scenery);
         let model = compiled.map_err(|error| WorldError::Compile {
             robot: robot.name.clone(),

@@ -185,7 +185,7 @@ impl Regime {
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "a time of milliseconds to minutes over a step of a quarter of a millisecond or more"
+        reason = "a time of milliseconds to minutes over a step of a tenth of a millisecond or more"
     )]
     pub fn steps_in(&self, seconds: f64) -> usize {
         ((seconds / self.time_step).round() as usize).max(1)

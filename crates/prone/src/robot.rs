@@ -4,6 +4,7 @@
 //! `robot.toml`. The value is immutable once loaded; algorithms are functions over `&Robot`.
 
 pub mod bounds;
+mod contact_group;
 mod control;
 mod drive;
 mod imu;
@@ -18,6 +19,7 @@ pub(crate) mod testing;
 mod tops;
 mod tree;
 
+pub use contact_group::ContactGroup;
 pub use control::{Control, SearchSetup, SteeringGains};
 pub use drive::Drive;
 pub use imu::{Imu, SensorNoise};
@@ -29,7 +31,6 @@ pub use shape::{Shape, Solid};
 pub use tops::{BodyPart, Tops};
 
 use std::collections::BTreeMap;
-use std::fmt;
 
 use glam::DVec3;
 
@@ -155,79 +156,10 @@ pub struct Range {
     pub upper: f64,
 }
 
-/// Parts of the body whose ground contact is recorded together.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum ContactGroup {
-    /// Feet: the rear support of the chain.
-    Toe,
-    /// Arms to the forearms: the front support.
-    Elbow,
-    /// Trunk and pelvis.
-    Torso,
-    /// Thighs and shins.
-    Leg,
-    /// Neck and head, which nothing should rest on; their height is recorded apart.
-    Head,
-    /// Hands, whose motors are the weakest.
-    Hand,
-}
-
-impl ContactGroup {
-    /// All groups, in the order of a record's columns.
-    pub const ALL: [Self; Self::COUNT] = [
-        Self::Toe,
-        Self::Elbow,
-        Self::Torso,
-        Self::Leg,
-        Self::Head,
-        Self::Hand,
-    ];
-
-    /// How many there are.
-    pub const COUNT: usize = 6;
-
-    /// The groups of the published study, which counts hands as elbows and the head as torso.
-    pub const OF_THE_STUDY: [Self; 4] = [Self::Toe, Self::Elbow, Self::Torso, Self::Leg];
-
-    /// Lower-case name, as in `robot.toml` and the record's columns.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Toe => "toe",
-            Self::Elbow => "elbow",
-            Self::Torso => "torso",
-            Self::Leg => "leg",
-            Self::Head => "head",
-            Self::Hand => "hand",
-        }
-    }
-
-    /// Whether it is the front support of the chain: arms with their hands.
-    pub const fn is_front(self) -> bool {
-        matches!(self, Self::Elbow | Self::Hand)
-    }
-
-    /// Whether it is the body, which the chain should carry: trunk, head and legs.
-    pub const fn is_body(self) -> bool {
-        matches!(self, Self::Torso | Self::Leg | Self::Head)
-    }
-
-    /// Forces by [`Self::ALL`] as forces by [`Self::OF_THE_STUDY`].
-    pub const fn as_in_the_study(forces: [f64; Self::COUNT]) -> [f64; 4] {
-        let [toe, elbow, torso, leg, head, hand] = forces;
-        [toe, elbow + hand, torso + head, leg]
-    }
-}
-
 impl Body {
     /// Whether it belongs to the head.
     pub const fn is_head(&self) -> bool {
         matches!(self.contact_group, ContactGroup::Head)
-    }
-}
-
-impl fmt::Display for ContactGroup {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
     }
 }
 

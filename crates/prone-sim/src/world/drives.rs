@@ -115,7 +115,7 @@ pub enum TooStiff {
 }
 
 /// The drives of a robot in a regime, in the order of [`Robot::drives`].
-pub(super) fn of(robot: &Robot, regime: &Regime) -> Vec<WorldDrive> {
+pub(super) fn in_regime(robot: &Robot, regime: &Regime) -> Vec<WorldDrive> {
     let drives = robot.drives().into_iter().map(|drive| {
         let joint = drive.named_after(robot);
         let limit = regime.torque_limit.limit(joint);
@@ -339,7 +339,7 @@ mod tests {
     fn refused(robot: &Robot, regime: Regime) -> Option<String> {
         let shipped = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
         let world = World::new(&shipped, regime).unwrap();
-        let drives = of(robot, &regime);
+        let drives = in_regime(robot, &regime);
         let refused = check(&world.model, robot, &regime, &drives);
         refused.err().map(|error| error.to_string())
     }
@@ -423,7 +423,7 @@ mod tests {
                 ..motor
             });
         }
-        for WorldDrive { drive, servo } in of(&robot, &Regime::LOCOMOTION) {
+        for WorldDrive { drive, servo } in in_regime(&robot, &Regime::LOCOMOTION) {
             let joint = drive.named_after(&robot);
             let WorldServo::Motor(motor) = servo else {
                 panic!("{servo:?}");

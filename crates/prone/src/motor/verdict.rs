@@ -197,23 +197,9 @@ impl Verdict {
 mod tests {
     use super::*;
     use crate::motor::MotorEffort;
-    use crate::robot::Motor;
-    use crate::robot::testing::two_armed;
+    use crate::robot::testing::two_armed_with_motors as robot;
 
     type Change = fn(&mut MotorEffort, f64);
-
-    fn robot() -> Robot {
-        let mut robot = two_armed();
-        for joint in &mut robot.joints {
-            joint.motor = Some(Motor {
-                ratio: 100.0,
-                nominal: 0.5,
-                stall: 2.5,
-                no_load_speed: Some(5.0),
-            });
-        }
-        robot
-    }
 
     fn judged(head: f64, change: impl FnOnce(&mut [MotorEffort])) -> Verdict {
         let robot = robot();

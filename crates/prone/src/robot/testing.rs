@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use glam::{DQuat, DVec3};
 
 use super::{
-    Body, BodyId, ChainLayout, ContactGroup, Control, FixedArm, Joint, JointAngles, JointId,
+    Body, BodyId, ChainLayout, ContactGroup, Control, FixedArm, Joint, JointAngles, JointId, Motor,
     PublishedChain, Range, Robot, SearchSetup, Shape, SideLayout, Solid, SteeringGains, StudySetup,
 };
 use crate::chain::ClosedChain;
@@ -179,5 +179,19 @@ pub(crate) fn two_armed() -> Robot {
     };
     let zero = JointAngles::zero(&robot);
     robot.postures.insert("zero".to_owned(), zero);
+    robot
+}
+
+/// It, with a motor on each joint that may give 0.5 N·m for ever.
+pub(crate) fn two_armed_with_motors() -> Robot {
+    let mut robot = two_armed();
+    for joint in &mut robot.joints {
+        joint.motor = Some(Motor {
+            ratio: 100.0,
+            nominal: 0.5,
+            stall: 2.5,
+            no_load_speed: Some(5.0),
+        });
+    }
     robot
 }

@@ -326,7 +326,7 @@ fn identity_rows_add_up_to_the_crawl() {
     }
 }
 
-/// Heat, work and advance of the second and third of three cycles at one engine step.
+/// Heat per path, work and advance of three cycles at one engine step.
 struct Measured {
     heat: f64,
     work: f64,

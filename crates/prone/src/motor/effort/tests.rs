@@ -1,5 +1,5 @@
-use crate::robot::testing::two_armed;
-use crate::robot::{JointId, Motor};
+use crate::robot::JointId;
+use crate::robot::testing::two_armed_with_motors as robot;
 
 use super::*;
 
@@ -22,20 +22,6 @@ fn after(steps: &[MotorStep]) -> MotorEffort {
 #[track_caller]
 fn near(found: f64, expected: f64) {
     assert!((found - expected).abs() < 1e-12, "{found}, not {expected}");
-}
-
-/// A robot whose motors may give 0.5 N·m for ever.
-fn robot() -> Robot {
-    let mut robot = two_armed();
-    for joint in &mut robot.joints {
-        joint.motor = Some(Motor {
-            ratio: 100.0,
-            nominal: 0.5,
-            stall: 2.5,
-            no_load_speed: Some(5.0),
-        });
-    }
-    robot
 }
 
 #[test]
