@@ -261,12 +261,16 @@ impl RobotFile {
     /// Reads a `robot.toml`; `file` is the name that errors carry.
     ///
     /// # Errors
-    /// [`FileError`] with line and column. Of a section or key that is missing it says where they
-    /// are described: an older robot lacks those that came since.
+    /// [`FileError`] with line and column. Of a section or key that is missing or unknown it says where
+    /// they are described: an older robot lacks those that came since, and has those that went.
     pub fn parse(file: &str, text: &str) -> Result<Self, FileError> {
         let source = Source { file, text };
         let robot: Self = source.parse().map_err(|error| {
-            if !error.message.starts_with("missing field") {
+            let of_another_time = ["missing field", "unknown field"];
+            if !of_another_time
+                .iter()
+                .any(|it| error.message.starts_with(it))
+            {
                 return error;
             }
             let message = format!(

@@ -460,6 +460,11 @@ const TABLES: &[Refusal] = &[
     ),
     (
         "[control]\ncommand_step_ms = 10.0\n",
+        "[control]\ncommand_step_ms = 10.0\nservo_rate_per_s = 20.0\n",
+        "nao/robot.toml:373:1: unknown field `servo_rate_per_s`, expected one of `command_step_ms`, `gear_efficiency`, `uphill_deg`, `steering`; docs/robot.md describes every section and key",
+    ),
+    (
+        "[control]\ncommand_step_ms = 10.0\n",
         "[control]\n",
         "nao/robot.toml:371:1: missing field `command_step_ms`; docs/robot.md describes every section and key",
     ),
