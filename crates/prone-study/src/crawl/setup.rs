@@ -1,22 +1,23 @@
 //! A crawl as it was asked for, loaded and checked: robot, world, cycles, pilot.
 
+mod error;
+
+pub use error::{CrawlRunError, CrawlSetupError, RefusedCycle};
+
 use prone::crawl::{CrawlerError, Pilot, SlopeAware, Straight};
-use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale, TimeScaleError};
-use prone::motor::UnknownMotor;
+use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale};
 use prone::regime::{MotorServo, Regime};
 use prone::robot::JointAngles;
-use prone::scene::{Obstacle, Scene, SceneError, SideFriction};
+use prone::scene::{Obstacle, Scene, SideFriction};
 use prone::steering::{HeadingHold, TurnTo};
 use prone_files::{cycle_file, scene_file};
 use prone_record::experiment::{
-    ChangedText, CrawlExperiment, Detail, Ending, GaitText, Limit, SceneChoice, ServoChoice,
-    SteeringChoice, TextError,
+    CrawlExperiment, Detail, Ending, GaitText, Limit, SceneChoice, ServoChoice, SteeringChoice,
+    TextError,
 };
 use prone_record::record_info::CrawlOptions;
-use prone_sim::crawl::{
-    self, Crawl, CrawlError, CrawlPlan, End, LimbsError, ROW_STEP, check_limbs,
-};
-use prone_sim::{LoadError, LoadedRobot, World, WorldError};
+use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, End, ROW_STEP, check_limbs};
+use prone_sim::{LoadedRobot, World};
 
 use super::run::{GaitSource, PastObstacles, offsets_by_name};
 use crate::search::settings::offsets;
@@ -44,130 +45,6 @@ pub struct CrawlSetup {
     steering: Steering,
     /// What is kept of it.
     pub detail: Detail,
-}
-
-/// Why a crawl cannot be simulated as it was asked for.
-#[derive(Debug, thiserror::Error)]
-pub enum CrawlSetupError {
-    /// The robot's text is not the one that was asked for.
-    #[error(transparent)]
-    Changed(#[from] ChangedText),
-    /// The robot cannot be loaded.
-    #[error(transparent)]
-    Robot(#[from] LoadError),
-    /// A cycle or a scene cannot be read.
-    #[error(transparent)]
-    Text(#[from] TextError),
-    /// A scene cannot be built as it was changed.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// The scene's file says it already.
-    #[error("scene {scene} sets {quantity} itself")]
-    SetTwice {
-        /// Its file.
-        scene: String,
-        /// `the friction` or `the slope`.
-        quantity: &'static str,
-    },
-    /// Robot and scene do not compile together.
-    #[error(transparent)]
-    World(#[from] WorldError),
-    /// A time scale that no crawl can have.
-    #[error(transparent)]
-    Scale(#[from] TimeScaleError),
-    /// A number that no crawl can have.
-    #[error(transparent)]
-    Limit(#[from] Limit),
-    /// An engine step of which rows do not hold a whole number.
-    #[error("an engine step of {seconds} s does not divide the {ROW_STEP} s of a row")]
-    BrokenStep {
-        /// What was asked for, s.
-        seconds: f64,
-    },
-    /// Efficiency was asked of gears whose motors are not known: it would change nothing.
-    #[error("a gear efficiency changes nothing: {source}")]
-    NoGears {
-        /// Whose.
-        source: UnknownMotor,
-    },
-    /// Something is drawn at random, and there is no seed.
-    #[error("{drawn} cannot be drawn without a seed")]
-    NoSeed {
-        /// What is drawn.
-        drawn: &'static str,
-    },
-    /// A scene's file and a plate exclude each other.
-    #[error("scene {scene} and a plate exclude each other")]
-    TwoScenes {
-        /// The scene's file.
-        scene: String,
-    },
-    /// A turn command beyond what the cycle can be turned by.
-    #[error("a turn command of {degrees}° is outside {} to {limit_deg}°, by which {gait} can be turned", 0.0 - limit_deg)]
-    Turn {
-        /// What was asked for, degrees.
-        degrees: f64,
-        /// The largest one, degrees.
-        limit_deg: f64,
-        /// The cycle's name.
-        gait: String,
-    },
-    /// A cycle that cannot turn follows no turn command.
-    #[error("a turn command of {degrees}° needs a cycle that can turn; {gait} has no [steering]")]
-    CannotTurn {
-        /// What was asked for, degrees.
-        degrees: f64,
-        /// The cycle's name.
-        gait: String,
-    },
-    /// A cycle that cannot turn cannot keep a heading.
-    #[error("keeping a heading needs a cycle that can turn; {gait} has no [steering]")]
-    NoSteering {
-        /// The cycle's name.
-        gait: String,
-    },
-    /// There is nothing to get past.
-    #[error("ending past the obstacles needs a plate or a panel: scene {scene} has none")]
-    NothingToPass {
-        /// The scene's name.
-        scene: String,
-    },
-    /// The robot cannot crawl a cycle.
-    #[error(transparent)]
-    Cycle(#[from] RefusedCycle),
-    /// Limbs would go through one another.
-    #[error("{}{source}", in_place(file.as_deref()))]
-    Limbs {
-        /// The cycle's file, where it is a user's.
-        file: Option<String>,
-        /// Which, and how deep.
-        source: Box<LimbsError>,
-    },
-}
-
-/// A cycle that the robot cannot crawl, with its place where it is a user's.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("{}{source}", in_place(place.as_deref()))]
-pub struct RefusedCycle {
-    /// File and line.
-    place: Option<String>,
-    /// What is wrong.
-    source: Box<CycleError>,
-}
-
-/// Why a crawl has no result.
-#[derive(Debug, thiserror::Error)]
-pub enum CrawlRunError {
-    /// The robot cannot crawl the cycle.
-    #[error(transparent)]
-    Cycle(#[from] RefusedCycle),
-    /// The simulation has none.
-    #[error(transparent)]
-    Crawl(CrawlError),
-}
-
-fn in_place(place: Option<&str>) -> String {
-    place.map_or_else(String::new, |place| format!("{place}: "))
 }
 
 #[derive(Debug, Clone, Copy)]
