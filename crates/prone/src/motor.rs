@@ -6,7 +6,7 @@
 //! ```text
 //! b  = η τₛ / ω₀                        back-EMF, N·m·s/rad                                (1)
 //! uᵥ = clip(K · error, ±η τₛ)           torque that the supply's voltage gives at rest     (2)
-//! u  = clip(uᵥ, −τₘ + b ω, τₘ + b ω)         current limit                               (3)
+//! u  = clip(uᵥ, −τₘ + b ω, τₘ + b ω)   current limit                                     (3)
 //! τ  = u − b ω                          torque applied                                     (4)
 //! ```
 //!

@@ -185,8 +185,8 @@ fn joints(cards: &[Card]) -> Markup {
                 " Torque applied. Peak: the largest over the motor's continuous torque at the joint, \
                  before gear losses. RMS: root mean square over what the gear passes on of that torque, \
                  an estimate; 1 can go on for ever. Heat: share of all motors'. Voltage and limit: share \
-                 of the time in which the supply's voltage, or the current limit, cuts what the \
-                 controller asks for. "
+                 of the time outside rests in which the supply's voltage, or the current limit, cuts \
+                 what the controller asks for. "
                 @if all_simulated(cards) { "Ours, simulated; the" } @else { "The" }
                 " warmest of the first crawl first; – is less than 1 % of the heat."
             }

@@ -106,8 +106,8 @@ impl Measure {
     pub const fn name(self) -> &'static str {
         match self {
             Self::RmsTorque => "RMS torque over nominal",
-            Self::SupplyClipped => "share of the time with too little voltage",
-            Self::CurrentLimited => "share of the time at the current limit",
+            Self::SupplyClipped => "share of the time outside rests with too little voltage",
+            Self::CurrentLimited => "share of the time outside rests at the current limit",
             Self::PlannedSpeed => "planned speed over no-load speed",
             Self::Head => "force on the head, N",
         }

@@ -317,6 +317,20 @@ fn identity_rows_add_up_to_the_crawl() {
                 "{gait}: {rows} {cycles} {whole}"
             );
         }
+        // A controller that was cut had asked for more than the supply gives, and the other way round.
+        assert!(near(crawl.effort.moving, crawl.effort.seconds), "{gait}");
+        let mut cut = 0;
+        for row in &crawl.rows {
+            for (it, did) in world.drives().iter().zip(&row.effort.motors) {
+                let WorldServo::Motor(motor) = it.servo else {
+                    panic!("{:?}", it.servo);
+                };
+                let asked_for_more = it.demanded(did) > motor.supply_torque;
+                assert_eq!(did.supply_clipped > 0.0, asked_for_more, "{gait}");
+                cut += usize::from(asked_for_more);
+            }
+        }
+        assert!(cut > 0, "{gait}");
         let last = crawl.rows.last().unwrap();
         assert!(near(last.time, crawl.effort.seconds), "{gait}");
         // From rest to an extension that is nearly at rest, over seconds: 1 % of the weight.
