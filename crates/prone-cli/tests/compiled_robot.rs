@@ -120,7 +120,7 @@ fn a_file_goes_over_a_compiled_robot_and_over_nothing_else() {
     let text = fs::read_to_string(at("nao.json")).unwrap();
     for (old, new) in [
         ("\"sources_sha256\": \"", "\"sources_sha256\": \"0"),
-        ("\"format_version\": 2", "\"format_version\": 99"),
+        ("\"format_version\": 3", "\"format_version\": 99"),
     ] {
         let other = text.replacen(old, new, 1);
         assert_ne!(other, text);
@@ -193,7 +193,7 @@ fn checking_a_robot_fails_when_its_compiled_file_is_stale() {
     let text = fs::read_to_string(&place).unwrap();
     fs::write(
         &place,
-        text.replacen("\"format_version\": 2", "\"format_version\": 3", 1),
+        text.replacen("\"format_version\": 3", "\"format_version\": 4", 1),
     )
     .unwrap();
     let (code, message, _) = state();

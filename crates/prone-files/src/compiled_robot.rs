@@ -4,7 +4,7 @@
 //! ```json
 //! {
 //!   "format": "prone-compiled-robot",
-//!   "format_version": 2,
+//!   "format_version": 3,
 //!   "family": "nao",
 //!   "version": "v4",
 //!   "sources_sha256": "…",
@@ -22,6 +22,7 @@
 mod bodies;
 mod chain;
 mod control;
+mod coupled;
 mod document;
 mod layout;
 mod names;
@@ -51,7 +52,7 @@ pub const FILE_NAME: &str = "robot.compiled.json";
 /// What the key `format` says.
 const FORMAT: &str = "prone-compiled-robot";
 /// The version of the format that is written and read.
-const FORMAT_VERSION: u64 = 2;
+const FORMAT_VERSION: u64 = 3;
 /// Digits of a SHA-256 hash.
 const HASH_DIGITS: usize = 64;
 

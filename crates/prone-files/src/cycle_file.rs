@@ -1,8 +1,8 @@
-//! Cycle files: a whole crawl cycle, pull and recovery.
+//! Cycle files: a whole crawl cycle.
 //!
 //! ```toml
 //! name = "low"
-//! mapping = "original"     # these three as in a gait file
+//! mapping = "original"     # these three as in a gait file; the first two belong to a pull
 //! arm = "flat-forearm"
 //! limits = "clamp"
 //!
@@ -14,7 +14,7 @@
 //! constant_deg = 20
 //! [pull.upper_arm]
 //! linear_deg = [-30, -90]
-//! [pull.joints.HeadPitch]  # joints outside the chain
+//! [pull.joints.HeadPitch]  # joints that move beside it
 //! linear_deg = [5, 28]
 //!
 //! [[recovery]]             # a waypoint; the other leg's and arm's joints mirror
@@ -22,15 +22,20 @@
 //! time_s = 0.5
 //! easing = "smoothstep"    # or "linear"
 //! joints_deg = { LHipPitch = -25, LKneePitch = 50 }
+//! turn = { LHipRoll = 0.2 } # what a turn command adds, times this
 //!
 //! [approach]               # from the last waypoint to the pull's first posture
 //! time_s = 0.5
 //!
 //! [steering]
 //! limit_deg = 12
-//! spread = 1.0
+//! dead_band_deg = 1        # what of a command friction swallows at the waypoints
+//! spread = 1.0             # in the pull
 //! joints = { LHipRoll = -1, RHipRoll = -1 }
 //! ```
+//!
+//! A cycle without a pull has `[[waypoint]]`s instead of `[[recovery]]`, and no `[approach]`: it goes
+//! round through its waypoints, and the last one is where it begins. They need no name.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -38,13 +43,13 @@ use std::fmt::Write as _;
 use serde::Deserialize;
 use toml::Spanned;
 
-use prone::gait::cycle::{Approach, Cycle, Easing, Steering, Waypoint};
-use prone::gait::{Gait, LimitsPolicy, PhaseDuration};
+use prone::gait::cycle::{Approach, Cycle, Easing, Pull, Steering, Waypoint};
+use prone::gait::{LimitsPolicy, PhaseDuration};
 use prone::mapping::{ArmMode, MappingVariant};
 
 use crate::curve_table::{self, CurveTable};
 use crate::error::{FileError, Source, line_and_column};
-use crate::gait_file::{self, ArmName, LimitsName, MappingName};
+use crate::gait_file::{self, ArmName, Head, LimitsName, MappingName};
 
 /// Largest angle of a joint in a file, degrees.
 const LARGEST_DEG: f64 = 360.0;
@@ -53,9 +58,13 @@ const LARGEST_TURN_DEG: f64 = 30.0;
 /// Largest factor of a turn command.
 const LARGEST_FACTOR: f64 = 10.0;
 
-/// Whether a text is that of a cycle file and not of a gait file: it has a `[pull]`.
+/// Tables that a cycle file has and a gait file has not.
+const OF_CYCLES: [&str; 3] = ["pull", "recovery", "waypoint"];
+
+/// Whether a text is that of a cycle file and not of a gait file: it has a pull or waypoints.
 pub fn is_cycle(text: &str) -> bool {
-    toml::from_str::<toml::Table>(text).is_ok_and(|table| table.contains_key("pull"))
+    let table = toml::from_str::<toml::Table>(text);
+    table.is_ok_and(|table| OF_CYCLES.iter().any(|key| table.contains_key(*key)))
 }
 
 /// Reads a cycle from the text of a cycle file; `file` is the name that errors carry.
@@ -63,38 +72,64 @@ pub fn parse(file: &str, text: &str) -> Result<Cycle, FileError> {
     let source = Source { file, text };
     let table: CycleFile = source.parse()?;
     gait_file::check_name(source, &table.name)?;
-    let pull = table.pull;
-    let seconds = *pull.duration_s.get_ref();
-    let pull_duration =
-        PhaseDuration::new(seconds).map_err(|error| source.error(pull.duration_s.span(), error))?;
-    let mut company = BTreeMap::new();
-    for (joint, curve) in pull.joints {
-        company.insert(joint, curve.read(source)?);
+    let alone = table.pull.is_none();
+    let (waypoints, unused, key) = if alone {
+        (table.waypoint, table.recovery, "[[recovery]]")
+    } else {
+        (table.recovery, table.waypoint, "[[waypoint]]")
+    };
+    if let Some(waypoint) = unused.first() {
+        let message = if alone {
+            format!(
+                "{key} leads back to a pull, and there is no [pull]; a cycle without one has [[waypoint]]"
+            )
+        } else {
+            format!("{key} is for cycles without a [pull]; the way back to one is [[recovery]]")
+        };
+        return Err(source.error(waypoint.time_s.span(), message));
     }
-    let mut recovery = Vec::with_capacity(table.recovery.len());
-    for waypoint in table.recovery {
-        recovery.push(source.waypoint(waypoint)?);
+    let waypoints = waypoints.into_iter().enumerate();
+    let waypoints = waypoints.map(|(index, waypoint)| source.waypoint(index, waypoint));
+    let waypoints: Vec<Waypoint> = waypoints.collect::<Result<_, _>>()?;
+    let turned = waypoints.iter().find(|it| !it.turn.is_empty());
+    if let (Some(waypoint), None) = (turned, &table.steering) {
+        let message = format!(
+            "waypoint {} has a turn; [steering] with its limit_deg is missing",
+            waypoint.name
+        );
+        return Err(source.error(table.name.span(), message));
     }
+    let pull = match (table.pull, table.approach) {
+        (Some(pull), Some(approach)) => {
+            let approach = source.approach(&approach.time_s, approach.easing)?;
+            Some(source.pull(pull, table.mapping, table.arm, approach)?)
+        }
+        (Some(pull), None) => {
+            let message = "missing [approach]: it leads to the pull's first posture";
+            return Err(source.error(pull.duration_s.span(), message));
+        }
+        (None, approach) => {
+            let key = [
+                approach.map(|it| (it.time_s.span(), "[approach]")),
+                table.mapping.map(|it| (it.span(), "mapping")),
+                table.arm.map(|it| (it.span(), "arm")),
+            ];
+            if let Some((span, key)) = key.into_iter().flatten().next() {
+                let message = format!("{key} belongs to a pull, and there is no [pull]");
+                return Err(source.error(span, message));
+            }
+            None
+        }
+    };
+    let steering = table.steering.map(|it| source.steering(it, pull.is_some()));
     Ok(Cycle {
+        name: table.name.into_inner(),
+        description: table.description,
+        limits: table.limits,
+        pull,
+        waypoints,
         rest: 0.0,
-        pull: Gait {
-            name: table.name.into_inner(),
-            description: table.description,
-            knee: pull.knee.read(source)?,
-            hip: pull.hip.read(source)?,
-            upper_arm: pull.upper_arm.read(source)?,
-            mapping: table.mapping,
-            arm: table.arm,
-            limits: table.limits,
-        },
-        pull_duration,
-        company,
-        recovery,
-        approach: source.approach(&table.approach.time_s, table.approach.easing)?,
-        steering: match table.steering {
-            None => None,
-            Some(steering) => Some(source.steering(steering)?),
-        },
+        steering: steering.transpose()?,
     })
 }
 
@@ -103,10 +138,15 @@ pub fn parse(file: &str, text: &str) -> Result<Cycle, FileError> {
 /// file has no such part.
 pub fn line_of(text: &str, place: &str) -> Option<usize> {
     let table: CycleFile = toml::from_str(text).ok()?;
-    let waypoints = table.recovery.iter();
-    let mut names = waypoints.map(|waypoint| &waypoint.name);
-    if let Some(name) = names.find(|name| name.get_ref() == place) {
-        return Some(line_and_column(text, name.span().start).0);
+    let waypoints = table.recovery.iter().chain(&table.waypoint).enumerate();
+    for (index, waypoint) in waypoints {
+        let (name, span) = match &waypoint.name {
+            Some(name) => (name.get_ref().clone(), name.span()),
+            None => (usual_name(index), waypoint.time_s.span()),
+        };
+        if name == place {
+            return Some(line_and_column(text, span.start).0);
+        }
     }
     let header = match place {
         "extension" => "[approach",
@@ -122,49 +162,80 @@ pub fn line_of(text: &str, place: &str) -> Option<usize> {
 /// A cycle as the text of a cycle file: angles in radians with every digit, so that [`parse`]
 /// gives the same cycle. `header` becomes comment lines at the top.
 pub fn write(cycle: &Cycle, header: &str) -> String {
-    let mut text = gait_file::write_head(&cycle.pull, header);
+    let head = Head {
+        name: &cycle.name,
+        description: &cycle.description,
+        chain: cycle.pull.as_ref().map(|pull| (pull.mapping, pull.arm)),
+        limits: cycle.limits,
+    };
+    let mut text = gait_file::write_head(&head, header);
+    if let Some(pull) = &cycle.pull {
+        write_pull(&mut text, pull);
+    }
+    let key = if cycle.pull.is_some() {
+        "recovery"
+    } else {
+        "waypoint"
+    };
     // Writing to a string cannot fail.
+    for waypoint in &cycle.waypoints {
+        let Approach { seconds, easing } = waypoint.approach;
+        let _ = write!(
+            text,
+            "\n[[{key}]]\nname = {}\ntime_s = {seconds:?}\neasing = \"{}\"\njoints_rad = {}\n",
+            gait_file::quoted(&waypoint.name),
+            easing.name(),
+            inline(&waypoint.joints)
+        );
+        if !waypoint.turn.is_empty() {
+            let _ = writeln!(text, "turn = {}", inline(&waypoint.turn));
+        }
+    }
+    if let Some(pull) = &cycle.pull {
+        let Approach { seconds, easing } = pull.approach;
+        let _ = write!(
+            text,
+            "\n[approach]\ntime_s = {seconds:?}\neasing = \"{}\"\n",
+            easing.name()
+        );
+    }
+    if let Some(steering) = &cycle.steering {
+        let _ = write!(text, "\n[steering]\nlimit_rad = {:?}\n", steering.limit);
+        if steering.dead_band > 0.0 {
+            let _ = writeln!(text, "dead_band_rad = {:?}", steering.dead_band);
+        }
+        if cycle.pull.is_some() {
+            let _ = write!(
+                text,
+                "spread = {:?}\njoints = {}\n",
+                steering.spread,
+                inline(&steering.joints)
+            );
+        }
+    }
+    text
+}
+
+fn write_pull(text: &mut String, pull: &Pull) {
     let _ = write!(
         text,
         "\n[pull]\nduration_s = {:?}\n",
-        cycle.pull_duration.seconds()
+        pull.duration.seconds()
     );
-    for (key, curve) in gait_file::curves(&cycle.pull) {
+    for (key, curve) in [
+        ("knee", &pull.knee),
+        ("hip", &pull.hip),
+        ("upper_arm", &pull.upper_arm),
+    ] {
         let _ = write!(text, "\n[pull.{key}]\n{}\n", curve_table::write(curve));
     }
-    for (joint, curve) in &cycle.company {
+    for (joint, curve) in &pull.company {
         let _ = write!(
             text,
             "\n[pull.joints.{joint}]\n{}\n",
             curve_table::write(curve)
         );
     }
-    for waypoint in &cycle.recovery {
-        let Approach { seconds, easing } = waypoint.approach;
-        let _ = write!(
-            text,
-            "\n[[recovery]]\nname = {}\ntime_s = {seconds:?}\neasing = \"{}\"\njoints_rad = {}\n",
-            gait_file::quoted(&waypoint.name),
-            easing.name(),
-            inline(&waypoint.joints)
-        );
-    }
-    let Approach { seconds, easing } = cycle.approach;
-    let _ = write!(
-        text,
-        "\n[approach]\ntime_s = {seconds:?}\neasing = \"{}\"\n",
-        easing.name()
-    );
-    if let Some(steering) = &cycle.steering {
-        let _ = write!(
-            text,
-            "\n[steering]\nlimit_rad = {:?}\nspread = {:?}\njoints = {}\n",
-            steering.limit,
-            steering.spread,
-            inline(&steering.joints)
-        );
-    }
-    text
 }
 
 fn inline(numbers: &BTreeMap<String, f64>) -> String {
@@ -181,18 +252,24 @@ struct CycleFile {
     name: Spanned<String>,
     #[serde(default)]
     description: String,
-    #[serde(default, with = "MappingName")]
-    mapping: MappingVariant,
-    #[serde(default, with = "ArmName")]
-    arm: ArmMode,
+    mapping: Option<Spanned<MappingText>>,
+    arm: Option<Spanned<ArmText>>,
     #[serde(default, with = "LimitsName")]
     limits: LimitsPolicy,
-    pull: PullTable,
+    pull: Option<PullTable>,
     #[serde(default)]
     recovery: Vec<WaypointTable>,
-    approach: ApproachTable,
+    #[serde(default)]
+    waypoint: Vec<WaypointTable>,
+    approach: Option<ApproachTable>,
     steering: Option<SteeringTable>,
 }
+
+#[derive(Debug, Deserialize)]
+struct MappingText(#[serde(with = "MappingName")] MappingVariant);
+
+#[derive(Debug, Deserialize)]
+struct ArmText(#[serde(with = "ArmName")] ArmMode);
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -208,7 +285,7 @@ struct PullTable {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct WaypointTable {
-    name: Spanned<String>,
+    name: Option<Spanned<String>>,
     time_s: Spanned<f64>,
     #[serde(default, with = "EasingName")]
     easing: Easing,
@@ -216,6 +293,8 @@ struct WaypointTable {
     joints_deg: BTreeMap<String, Spanned<f64>>,
     #[serde(default)]
     joints_rad: BTreeMap<String, Spanned<f64>>,
+    #[serde(default)]
+    turn: BTreeMap<String, Spanned<f64>>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -231,7 +310,9 @@ struct ApproachTable {
 struct SteeringTable {
     limit_deg: Option<Spanned<f64>>,
     limit_rad: Option<Spanned<f64>>,
-    spread: Spanned<f64>,
+    dead_band_deg: Option<Spanned<f64>>,
+    dead_band_rad: Option<Spanned<f64>>,
+    spread: Option<Spanned<f64>>,
     #[serde(default)]
     joints: BTreeMap<String, Spanned<f64>>,
 }
@@ -243,10 +324,44 @@ enum EasingName {
     Linear,
 }
 
+/// Name of a waypoint that has none, by its place from 0.
+fn usual_name(index: usize) -> String {
+    (index + 1).to_string()
+}
+
 impl Source<'_> {
-    fn waypoint(self, table: WaypointTable) -> Result<Waypoint, FileError> {
-        if table.name.get_ref().trim().is_empty() {
-            return Err(self.error(table.name.span(), "a waypoint needs a name"));
+    fn pull(
+        self,
+        table: PullTable,
+        mapping: Option<Spanned<MappingText>>,
+        arm: Option<Spanned<ArmText>>,
+        approach: Approach,
+    ) -> Result<Pull, FileError> {
+        let duration = PhaseDuration::new(*table.duration_s.get_ref())
+            .map_err(|error| self.error(table.duration_s.span(), error))?;
+        let mut company = BTreeMap::new();
+        for (joint, curve) in table.joints {
+            company.insert(joint, curve.read(self)?);
+        }
+        Ok(Pull {
+            knee: table.knee.read(self)?,
+            hip: table.hip.read(self)?,
+            upper_arm: table.upper_arm.read(self)?,
+            mapping: mapping.map_or_else(MappingVariant::default, |it| it.into_inner().0),
+            arm: arm.map_or_else(ArmMode::default, |it| it.into_inner().0),
+            duration,
+            company,
+            approach,
+        })
+    }
+
+    fn waypoint(self, index: usize, table: WaypointTable) -> Result<Waypoint, FileError> {
+        if let Some(name) = table
+            .name
+            .as_ref()
+            .filter(|it| it.get_ref().trim().is_empty())
+        {
+            return Err(self.error(name.span(), "a waypoint's name is empty"));
         }
         let mut joints = BTreeMap::new();
         for (joint, angle) in table.joints_deg {
@@ -260,10 +375,17 @@ impl Source<'_> {
                 return Err(self.error(angle.span(), twice));
             }
         }
+        let mut turn = BTreeMap::new();
+        for (joint, factor) in table.turn {
+            let value = self.within(&factor, &joint, LARGEST_FACTOR)?;
+            turn.insert(joint, value);
+        }
+        let name = table.name.map(Spanned::into_inner);
         Ok(Waypoint {
-            name: table.name.into_inner(),
+            name: name.unwrap_or_else(|| usual_name(index)),
             approach: self.approach(&table.time_s, table.easing)?,
             joints,
+            turn,
         })
     }
 
@@ -277,30 +399,73 @@ impl Source<'_> {
         Ok(Approach { seconds, easing })
     }
 
-    fn steering(self, table: SteeringTable) -> Result<Steering, FileError> {
-        let limit = match (table.limit_deg, table.limit_rad) {
+    fn steering(self, table: SteeringTable, has_pull: bool) -> Result<Steering, FileError> {
+        let limit = match (&table.limit_deg, &table.limit_rad) {
             (Some(degrees), None) => self
-                .positive(&degrees, "limit_deg", LARGEST_TURN_DEG)?
+                .positive(degrees, "limit_deg", LARGEST_TURN_DEG)?
                 .to_radians(),
             (None, Some(radians)) => {
-                self.positive(&radians, "limit_rad", LARGEST_TURN_DEG.to_radians())?
+                self.positive(radians, "limit_rad", LARGEST_TURN_DEG.to_radians())?
             }
-            _ => {
-                let span = table.spread.span();
+            (Some(number), Some(_)) => {
+                let message = "[steering] has both limit_deg and limit_rad";
+                return Err(self.error(number.span(), message));
+            }
+            (None, None) => {
+                let header = self.text.find("[steering").unwrap_or_default();
                 let message = "[steering] needs one of limit_deg and limit_rad";
-                return Err(self.error(span, message));
+                return Err(self.error(header..header, message));
             }
         };
+        let dead_band = match (&table.dead_band_deg, &table.dead_band_rad) {
+            (None, None) => 0.0,
+            (Some(degrees), None) => self
+                .not_negative(degrees, "dead_band_deg", LARGEST_TURN_DEG)?
+                .to_radians(),
+            (None, Some(radians)) => {
+                self.not_negative(radians, "dead_band_rad", LARGEST_TURN_DEG.to_radians())?
+            }
+            (Some(number), Some(_)) => {
+                let message = "[steering] has both dead_band_deg and dead_band_rad";
+                return Err(self.error(number.span(), message));
+            }
+        };
+        let in_pull = table
+            .spread
+            .as_ref()
+            .or_else(|| table.joints.values().next());
+        if let Some(number) = in_pull.filter(|_| !has_pull) {
+            let message = "spread and joints of [steering] act in a pull, and there is no [pull]; \
+                           `turn` of a waypoint acts there";
+            return Err(self.error(number.span(), message));
+        }
         let mut joints = BTreeMap::new();
         for (joint, factor) in table.joints {
             let value = self.within(&factor, &joint, LARGEST_FACTOR)?;
             joints.insert(joint, value);
         }
+        let spread = table.spread.as_ref();
+        let spread = spread.map(|it| self.within(it, "spread", LARGEST_FACTOR));
         Ok(Steering {
             limit,
-            spread: self.within(&table.spread, "spread", LARGEST_FACTOR)?,
+            dead_band,
+            spread: spread.transpose()?.unwrap_or_default(),
             joints,
         })
+    }
+
+    fn not_negative(
+        self,
+        number: &Spanned<f64>,
+        what: &str,
+        largest: f64,
+    ) -> Result<f64, FileError> {
+        let value = *number.get_ref();
+        if (0.0..=largest).contains(&value) {
+            return Ok(value);
+        }
+        let message = format!("{what} must be 0 to {largest}, not {value}");
+        Err(self.error(number.span(), message))
     }
 
     fn within(self, number: &Spanned<f64>, what: &str, largest: f64) -> Result<f64, FileError> {

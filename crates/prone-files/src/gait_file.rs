@@ -22,7 +22,7 @@
 use serde::Deserialize;
 use toml::Spanned;
 
-use prone::gait::{Curve, Gait, LimitsPolicy};
+use prone::gait::{Gait, LimitsPolicy};
 use prone::mapping::{ArmMode, MappingVariant};
 
 use crate::curve_table::{self, CurveTable};
@@ -61,43 +61,53 @@ pub(crate) fn check_name(source: Source<'_>, name: &Spanned<String>) -> Result<(
 /// A gait as the text of a gait file: angles in radians with every digit, so that [`parse`] gives
 /// the same gait. `header` becomes comment lines at the top.
 pub fn write(gait: &Gait, header: &str) -> String {
-    let mut text = write_head(gait, header);
-    for (table, curve) in curves(gait) {
+    let head = Head {
+        name: &gait.name,
+        description: &gait.description,
+        chain: Some((gait.mapping, gait.arm)),
+        limits: gait.limits,
+    };
+    let mut text = write_head(&head, header);
+    for (table, curve) in [
+        ("knee", &gait.knee),
+        ("hip", &gait.hip),
+        ("upper_arm", &gait.upper_arm),
+    ] {
         text.push_str(&["\n[", table, "]\n", &curve_table::write(curve), "\n"].concat());
     }
     text
 }
 
+/// What stands at the top of a gait or cycle file.
+pub(crate) struct Head<'a> {
+    pub(crate) name: &'a str,
+    pub(crate) description: &'a str,
+    /// Of what has a closed chain.
+    pub(crate) chain: Option<(MappingVariant, ArmMode)>,
+    pub(crate) limits: LimitsPolicy,
+}
+
 /// Header, name, description, mapping, arms and limits.
-pub(crate) fn write_head(gait: &Gait, header: &str) -> String {
+pub(crate) fn write_head(head: &Head<'_>, header: &str) -> String {
     let mut text = String::new();
     for line in header.lines() {
         text.push_str(format!("# {line}").trim_end());
         text.push('\n');
     }
-    let limits = match gait.limits {
+    let limits = match head.limits {
         LimitsPolicy::Refuse => "refuse",
         LimitsPolicy::Clamp => "clamp",
     };
-    for (key, value) in [
-        ("name", gait.name.as_str()),
-        ("description", &gait.description),
-        ("mapping", gait.mapping.name()),
-        ("arm", gait.arm.name()),
-        ("limits", limits),
-    ] {
+    let mut values = vec![("name", head.name), ("description", head.description)];
+    if let Some((mapping, arm)) = &head.chain {
+        values.push(("mapping", mapping.name()));
+        values.push(("arm", arm.name()));
+    }
+    values.push(("limits", limits));
+    for (key, value) in values {
         text.push_str(&[key, " = ", &quoted(value), "\n"].concat());
     }
     text
-}
-
-/// The curves by the names of their tables.
-pub(crate) const fn curves(gait: &Gait) -> [(&'static str, &Curve); 3] {
-    [
-        ("knee", &gait.knee),
-        ("hip", &gait.hip),
-        ("upper_arm", &gait.upper_arm),
-    ]
 }
 
 /// A text as a TOML string.

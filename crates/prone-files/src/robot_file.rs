@@ -44,6 +44,9 @@ pub struct RobotFile {
     pub motors: BTreeMap<String, MotorTable>,
     /// Joints with the same drive; every joint of the model once.
     pub drives: Vec<DriveTable>,
+    /// Limits of joints that depend on the angle of another joint.
+    #[serde(default)]
+    pub coupled_limits: Vec<CoupledLimitTable>,
     /// Joint angles by posture and joint, rad; unlisted joints are at zero.
     #[serde(default)]
     pub postures: BTreeMap<String, BTreeMap<Name, f64>>,
@@ -185,6 +188,19 @@ pub struct DriveTable {
     pub ratio: Option<f64>,
 }
 
+/// `[[coupled_limits]]`
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CoupledLimitTable {
+    /// The joint that is limited.
+    pub joint: Name,
+    /// The joint by whose angle.
+    pub by: Name,
+    /// Angle of `by`, then lower and upper limit of `joint` there, degrees; angles of `by` rise.
+    #[serde(deserialize_with = "lines")]
+    pub table_deg: Vec<[f64; 3]>,
+}
+
 /// `[study]`
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -287,6 +303,11 @@ impl RobotFile {
     pub fn error_at<T>(file: &str, text: &str, place: &Spanned<T>, message: &str) -> FileError {
         Source { file, text }.error(place.span(), message)
     }
+}
+
+fn lines<'de, D: Deserializer<'de>>(table: D) -> Result<Vec<[f64; 3]>, D::Error> {
+    let lines = Vec::<Exactly<f64, 3>>::deserialize(table)?;
+    Ok(lines.into_iter().map(|Exactly(line)| line).collect())
 }
 
 fn ranges<'de, D: Deserializer<'de>>(table: D) -> Result<BTreeMap<Name, [f64; 2]>, D::Error> {

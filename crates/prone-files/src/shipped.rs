@@ -311,7 +311,7 @@ mod tests {
             assert!(cycle(name).is_none());
         }
         for name in cycle_names() {
-            assert_eq!(cycle(name).unwrap().unwrap().pull.name, name);
+            assert_eq!(cycle(name).unwrap().unwrap().name, name);
             assert!(gait(name).is_none());
         }
         assert!(gait("gallop").is_none());

@@ -397,7 +397,7 @@ fn a_crawl_is_halted_and_followed_by_another() {
             Halt::AtOnce => assert!((end - 5.0).abs() < 1e-9, "{end} s"),
             Halt::AfterCycle => {
                 assert!(end > 5.0, "{end} s");
-                let extension = crawler.first_pose().joints.clone();
+                let extension = crawler.cycle().extension().clone();
                 assert_eq!(crawler.commanded(), Some(&extension));
             }
         }

@@ -44,7 +44,7 @@ fn a_cycle_is_planned_as_its_file_says() {
     let stops = robot.stops();
     let cycle = plan(&robot, &stops, 0.0);
     let joint = |name: &str| robot.joint(name).unwrap();
-    for sample in cycle.pull().samples() {
+    for sample in cycle.pull().unwrap().samples() {
         let knee = sample.joints[joint("LKneePitch")].to_degrees();
         assert!((knee - 20.0).abs() < 1e-9, "{knee}° at {}", sample.s);
     }
@@ -53,7 +53,7 @@ fn a_cycle_is_planned_as_its_file_says() {
         assert!((angle - head).abs() < 1e-9, "{angle}°");
     }
     assert!((cycle.recovery_seconds() - 1.8).abs() < 1e-12);
-    for sample in cycle.pull().samples() {
+    for sample in cycle.pull().unwrap().samples() {
         for (stop, &angle) in stops.iter().zip(sample.joints.as_slice()) {
             assert!(stop.contains(angle), "{angle}");
         }
@@ -73,7 +73,13 @@ fn left_mirrors_right() {
     let stops = vec![everywhere; robot.joints.len()];
     let [left, right, ahead] = [0.1, -0.1, 0.0].map(|turn| plan(&robot, &stops, turn));
     assert_ne!(left, ahead, "it turns");
-    for (one, other) in left.pull().samples().iter().zip(right.pull().samples()) {
+    for (one, other) in left
+        .pull()
+        .unwrap()
+        .samples()
+        .iter()
+        .zip(right.pull().unwrap().samples())
+    {
         let image = mirror.posture(&other.joints);
         for (one, other) in one.joints.as_slice().iter().zip(image.as_slice()) {
             // Left and right agree to six digits of the model's file.

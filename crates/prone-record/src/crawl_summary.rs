@@ -43,8 +43,8 @@ pub struct CrawlSummary {
     pub contacts: Vec<PlateContact>,
     /// Highest points above the floor, mm.
     pub top_mm: TopsMm,
-    /// Advance of the shoulder in the planned closed chain, mm.
-    pub stride_mm: f64,
+    /// Advance of the shoulder in the planned closed chain, mm; nothing of a cycle without a pull.
+    pub stride_mm: Option<f64>,
     /// Advance of a pull over that stride; nothing where the plan does not lead forward.
     pub pull_efficiency: Option<f64>,
     /// Advance per cycle over that stride: above 1 where recoveries advance too; nothing where the

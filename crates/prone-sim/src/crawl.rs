@@ -212,10 +212,10 @@ pub fn lie_down<P: Pilot>(
     crawler: &Crawler<P>,
 ) -> Result<SimulatedRobot, CrawlError> {
     let imu = plan.imu_seed.map(|seed| SimulatedImu::new(world, seed));
-    let first = crawler.first_pose();
+    let first = crawler.cycle();
     let placement = Placement {
-        posture: first.joints.clone(),
-        pitch: first.root_pitch,
+        posture: first.extension().clone(),
+        pitch: first.root_pitch(),
     };
     let mut simulation = Simulation::new(world, &placement);
     simulation.place_front_at(0.0);

@@ -292,7 +292,7 @@ impl Session {
         let best = passage.best.as_ref();
         let cycle = best.and_then(|best| {
             let mut last_first = cycles.into_iter().rev();
-            last_first.find(|cycle| cycle.pull.name == best.gait)
+            last_first.find(|cycle| cycle.name == best.gait)
         });
         uninterrupted(watch, || {
             let found = self

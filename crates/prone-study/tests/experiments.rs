@@ -90,7 +90,7 @@ fn a_passage_names_the_cycle_that_fits() {
         panic!("a passage was asked for");
     };
     assert!(outcome.passage.feasible);
-    assert_eq!(outcome.cycle.unwrap().pull.name, "far-200");
+    assert_eq!(outcome.cycle.unwrap().name, "far-200");
     for (margin_mm, expected) in [
         (
             188.0,

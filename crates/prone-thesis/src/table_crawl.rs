@@ -117,8 +117,8 @@ impl TableStudy {
     pub(crate) fn info(&self) -> TableInfo {
         let regime = Regime::LOCOMOTION;
         TableInfo {
-            gait: self.gait.cycle.pull.name.clone(),
-            description: self.gait.cycle.pull.description.clone(),
+            gait: self.gait.cycle.name.clone(),
+            description: self.gait.cycle.description.clone(),
             scene: self.scene.name.clone(),
             regime: regime.name.into(),
             friction: regime.friction,

@@ -6,6 +6,7 @@
 pub mod bounds;
 mod contact_group;
 mod control;
+mod coupled_limit;
 mod drive;
 mod imu;
 mod joint_angles;
@@ -21,6 +22,7 @@ mod tree;
 
 pub use contact_group::ContactGroup;
 pub use control::{Control, SearchSetup, SteeringGains};
+pub use coupled_limit::{CoupledLimit, CoupledLimitError};
 pub use drive::Drive;
 pub use imu::{Imu, SensorNoise};
 pub use joint_angles::JointAngles;
@@ -58,6 +60,8 @@ pub struct Robot {
     /// Joints that one motor turns together, which the model ties by an equality; every other joint
     /// has a motor of its own ([`Self::drives`]).
     pub shared_motors: Vec<Vec<JointId>>,
+    /// Limits of joints that depend on the angle of another joint, beside those of [`Joint::range`].
+    pub coupled_limits: Vec<CoupledLimit>,
     /// Primitives that collide.
     pub shapes: Vec<Shape>,
     /// What makes the sagittal chain.

@@ -24,31 +24,15 @@ pub(crate) fn print(summary: &CrawlSummary, out: &mut dyn Write) -> Result<()> {
     )?;
     writeln!(
         out,
-        "  path {:.1} mm: {:.1} mm per cycle, {:.1} mm/s; {:.1} mm ahead, {:+.1} mm to the left, heading {:+.1}°
-  a cycle: {:.1} mm in the pull, {:.1} mm in the recovery; trunk, head and legs carry {:.0} % and {:.0} % of the weight",
-        s.path_mm,
-        s.mm_per_cycle,
-        s.mm_per_s,
-        s.distance_mm,
-        s.lateral_mm,
-        s.yaw_deg,
-        s.pull_mm_per_cycle,
-        s.recovery_mm_per_cycle,
-        s.pull_body_share * 100.0,
-        s.recovery_body_share * 100.0
+        "  path {:.1} mm: {:.1} mm per cycle, {:.1} mm/s; {:.1} mm ahead, {:+.1} mm to the left, heading {:+.1}°",
+        s.path_mm, s.mm_per_cycle, s.mm_per_s, s.distance_mm, s.lateral_mm, s.yaw_deg
     )?;
-    match s.pull_efficiency.zip(s.stride_efficiency) {
-        Some((pull, cycle)) => writeln!(
-            out,
-            "  stride of the planned chain {:.1} mm: pulls make {:.0} % of it, whole cycles {:.0} %",
-            s.stride_mm,
-            pull * 100.0,
-            cycle * 100.0
-        )?,
+    match s.stride_mm {
+        Some(stride_mm) => print_pull(s, stride_mm, out)?,
         None => writeln!(
             out,
-            "  stride of the planned chain {:.1} mm: the pull does not lead forward",
-            s.stride_mm
+            "  no pull, waypoints alone; trunk, head and legs carry {:.0} % of the weight",
+            s.recovery_body_share * 100.0
         )?,
     }
     let tops = BodyPart::ALL.into_iter().zip(s.top_mm.to_array());
@@ -58,6 +42,30 @@ pub(crate) fn print(summary: &CrawlSummary, out: &mut dyn Write) -> Result<()> {
     writeln!(out, "  highest points, mm:{}", tops.concat())?;
     print_motors(s, out)?;
     print_touched_and_stopped(s, out)
+}
+
+/// What the pulls and the ways back made of the stride of the planned chain, mm.
+fn print_pull(s: &CrawlSummary, stride_mm: f64, out: &mut dyn Write) -> Result<()> {
+    writeln!(
+        out,
+        "  a cycle: {:.1} mm in the pull, {:.1} mm in the recovery; trunk, head and legs carry {:.0} % and {:.0} % of the weight",
+        s.pull_mm_per_cycle,
+        s.recovery_mm_per_cycle,
+        s.pull_body_share * 100.0,
+        s.recovery_body_share * 100.0
+    )?;
+    match s.pull_efficiency.zip(s.stride_efficiency) {
+        Some((pull, cycle)) => writeln!(
+            out,
+            "  stride of the planned chain {stride_mm:.1} mm: pulls make {:.0} % of it, whole cycles {:.0} %",
+            pull * 100.0,
+            cycle * 100.0
+        ),
+        None => writeln!(
+            out,
+            "  stride of the planned chain {stride_mm:.1} mm: the pull does not lead forward"
+        ),
+    }
 }
 
 /// What the motors did, and whether those of a robot could do it.

@@ -2,12 +2,13 @@
 
 use std::io::Write;
 
+use anyhow::anyhow;
 use serde_json::json;
 
 use prone::gait::cycle::{CheckedCycle, Cycle, TimeScale};
 use prone::robot::Robot;
 use prone_sim::LoadedRobot;
-use prone_study::gait_sheet;
+use prone_study::gait_sheet::{self, GaitSheet};
 
 use super::find_cycle;
 use crate::Failure;
@@ -19,14 +20,20 @@ pub(super) fn show(args: &GaitShowArgs, loaded: &LoadedRobot) -> Result<(), Fail
     let robot = loaded.robot();
     let checked = CheckedCycle::plan(robot, &robot.stops(), cycle, 0.0, TimeScale::ONE)
         .map_err(|error| Failure::input(source.refused(&error)))?;
-    let duration = args.duration.unwrap_or(cycle.pull_duration);
-    let sheet = gait_sheet::of(robot, &cycle.pull, duration).map_err(Failure::input)?;
-    if let Some(path) = &args.csv {
-        super::write_csv(&sheet, path, &super::inputs(args, loaded)?)?;
+    let sheet = sheet(args, cycle, robot)?;
+    match (&args.csv, &sheet) {
+        (Some(path), Some(sheet)) => super::write_csv(sheet, path, &super::inputs(args, loaded)?)?,
+        (Some(_), None) => {
+            return Err(Failure::Input(anyhow!(
+                "{} has no pull: --csv writes the table of one",
+                cycle.name
+            )));
+        }
+        (None, _) => {}
     }
     let mut out = std::io::stdout().lock();
     if args.json {
-        let waypoints = cycle.recovery.iter().map(|waypoint| {
+        let waypoints = cycle.waypoints.iter().map(|waypoint| {
             let degrees = waypoint.joints.iter();
             json!({
                 "name": waypoint.name,
@@ -35,13 +42,14 @@ pub(super) fn show(args: &GaitShowArgs, loaded: &LoadedRobot) -> Result<(), Fail
                 "joints_deg": degrees
                     .map(|(joint, angle)| (joint.clone(), json!(angle.to_degrees())))
                     .collect::<serde_json::Map<_, _>>(),
+                "turn": waypoint.turn,
             })
         });
         let fastest = checked.fastest();
         let shown = json!({
             "pull": sheet,
             "recovery": waypoints.collect::<Vec<_>>(),
-            "approach_s": cycle.approach.seconds,
+            "approach_s": cycle.pull.as_ref().map(|pull| pull.approach.seconds),
             "cycle_s": cycle.duration(TimeScale::ONE),
             "fastest": {
                 "joint": fastest.joint,
@@ -54,9 +62,21 @@ pub(super) fn show(args: &GaitShowArgs, loaded: &LoadedRobot) -> Result<(), Fail
         writeln!(out, "{text}")?;
         return Ok(());
     }
-    super::print(&sheet, robot, &mut out)?;
+    if let Some(sheet) = &sheet {
+        super::print(sheet, robot, &mut out)?;
+    }
     print(cycle, &checked, robot, &mut out)?;
     Ok(())
+}
+
+/// The table of the cycle's pull, where it has one.
+fn sheet(args: &GaitShowArgs, cycle: &Cycle, robot: &Robot) -> Result<Option<GaitSheet>, Failure> {
+    let (Some(pull), Some(gait)) = (&cycle.pull, cycle.gait()) else {
+        return Ok(None);
+    };
+    let duration = args.duration.unwrap_or(pull.duration);
+    let sheet = gait_sheet::of(robot, &gait, duration).map_err(Failure::input)?;
+    Ok(Some(sheet))
 }
 
 fn print(
@@ -65,13 +85,15 @@ fn print(
     robot: &Robot,
     out: &mut impl Write,
 ) -> std::io::Result<()> {
-    let pull_s = cycle.pull_duration.seconds();
-    writeln!(
-        out,
-        "\nwhole cycle: {:.2} s, of which {pull_s:.2} s are the pull",
-        cycle.duration(TimeScale::ONE)
-    )?;
-    for (waypoint, (name, end)) in cycle.recovery.iter().zip(checked.recovery_ends()) {
+    let (pull_s, cycle_s) = (cycle.pull_seconds(), cycle.duration(TimeScale::ONE));
+    match cycle.pull {
+        Some(_) => writeln!(
+            out,
+            "\nwhole cycle: {cycle_s:.2} s, of which {pull_s:.2} s are the pull"
+        )?,
+        None => writeln!(out, "{}: {cycle_s:.2} s, waypoints alone", cycle.name)?,
+    }
+    for (waypoint, (name, end)) in cycle.waypoints.iter().zip(checked.recovery_ends()) {
         let degrees: Vec<_> = waypoint
             .joints
             .iter()
@@ -84,11 +106,13 @@ fn print(
             degrees.join(", ")
         )?;
     }
-    writeln!(
-        out,
-        "  {:.2} s  extension: the first posture of the next pull",
-        pull_s + checked.recovery_seconds()
-    )?;
+    if cycle.pull.is_some() {
+        writeln!(
+            out,
+            "  {:.2} s  extension: the first posture of the next pull",
+            pull_s + checked.recovery_seconds()
+        )?;
+    }
     let fastest = checked.fastest();
     writeln!(
         out,

@@ -16,6 +16,7 @@ use prone::robot::{Body, ContactGroup, JointAngles, JointId, Robot, check_limbs}
 use super::bodies::{BodyDocument, JointDocument, ShapeDocument, check_moved};
 use super::chain::ChainDocument;
 use super::control::{ControlDocument, ImuDocument, SearchDocument, StudyDocument};
+use super::coupled::CoupledLimitDocument;
 use super::names::{self, Names, joint_name};
 use super::place::{Place, Violation, optional};
 
@@ -40,6 +41,7 @@ pub struct RobotDocument {
     pub(super) joints: Vec<JointDocument>,
     /// Joints that one motor turns together, by name.
     shared_motors: Vec<Vec<String>>,
+    coupled_limits: Vec<CoupledLimitDocument>,
     pub(super) shapes: Vec<ShapeDocument>,
     pub(super) chain: ChainDocument,
     postures: Vec<PostureDocument>,
@@ -87,6 +89,11 @@ impl RobotDocument {
                 .iter()
                 .map(|them| them.iter().map(|id| joint_name(robot, *id)).collect())
                 .collect(),
+            coupled_limits: robot
+                .coupled_limits
+                .iter()
+                .map(|limit| CoupledLimitDocument::new(robot, limit))
+                .collect(),
             shapes: shapes
                 .iter()
                 .map(|shape| ShapeDocument::new(robot, shape))
@@ -123,6 +130,9 @@ impl RobotDocument {
             bodies: bodies.each(&self.bodies, |at, index, body| body.read(at, index, &names))?,
             joints: joints.each(&self.joints, |at, _, joint| joint.read(at, &names))?,
             shared_motors: self.shared_motors(at.key("shared_motors"), &names)?,
+            coupled_limits: at
+                .key("coupled_limits")
+                .each(&self.coupled_limits, |at, _, it| it.read(at, &names))?,
             shapes: shapes.each(&self.shapes, |at, _, shape| shape.read(at, &names))?,
             chain: self.chain.read(at.key("chain"), &names)?,
             postures: postures

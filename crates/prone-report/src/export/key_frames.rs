@@ -43,7 +43,7 @@ pub fn from_cycle(checked: &CheckedCycle, tick_s: f64) -> Result<KeyFrames, Cycl
     let course = Course {
         checked,
         recovery: checked.recovery_after(checked)?,
-        pull_s: checked.pull().duration().seconds(),
+        pull_s: checked.pull_seconds(),
         tick_s,
     };
     let compression = course.tick(course.pull_s);
@@ -102,7 +102,7 @@ pub fn json(
         robot: &robot.name,
         gait: checked.name(),
         period_s: time_s(key_frames.frames.last().map_or(0, |last| last.tick)),
-        pull_s: checked.pull().duration().seconds(),
+        pull_s: checked.pull_seconds(),
         interpolation: "linear",
         tolerance_rad: TOLERANCE,
         joints: joints.map(|joint| joint.name.as_str()).collect(),

@@ -44,13 +44,13 @@ pub enum LimbsError {
 /// rounder than its robot.
 pub fn check_limbs(world: &World, checked: &CheckedCycle) -> Result<(), LimbsError> {
     let times = |seconds: f64| {
-        let count = (seconds / LIMB_STEP).ceil();
+        let count = (seconds / LIMB_STEP).ceil().max(1.0);
         (0..)
             .map(f64::from)
             .take_while(move |k| *k <= count)
             .map(move |k| seconds * k / count)
     };
-    let pull = checked.pull().duration().seconds();
+    let pull = checked.pull_seconds();
     let path = checked.recovery_after(checked)?;
     let forth: Vec<f64> = times(pull).collect();
     let back: Vec<f64> = times(checked.recovery_seconds()).collect();

@@ -239,7 +239,7 @@ fn no_limb_goes_through_another_in_a_shipped_cycle() {
         }
     }
     let mut crossed = shipped::cycle("low-175").unwrap().unwrap();
-    let roll = &mut crossed.recovery[0].joints;
+    let roll = &mut crossed.waypoints[0].joints;
     roll.insert("LHipRoll".to_owned(), -0.3);
     let error = check_limbs(&world, &plan(&crossed, 0.0)).unwrap_err();
     assert!(matches!(error, LimbsError::Through { .. }), "{error}");
@@ -350,7 +350,7 @@ fn a_changing_turn_leaves_planted_arms_where_they_are() {
     let roll = world.robot().chain.left.shoulder_roll;
     let held = plan(&cycle, 0.0).compression()[roll];
     let name = world.robot().joints[roll.0].name.clone();
-    cycle.recovery[0].joints.insert(name, held);
+    cycle.waypoints[0].joints.insert(name, held);
     for (last, next) in [(12.0, -12.0), (12.0, 0.0), (0.0, 12.0), (12.0, 12.0)] {
         let (previous, cycle) = (plan(&cycle, last), plan(&cycle, next));
         let path = cycle.recovery_after(&previous).unwrap();

@@ -1,9 +1,9 @@
-//! `[control]` and `[search]` of `robot.toml`: bounds and units.
+//! `[control]`, `[search]` and `[[coupled_limits]]` of `robot.toml`: bounds and units.
 
 use prone::robot::bounds;
-use prone::robot::{Control, Range, SearchSetup, SteeringGains};
+use prone::robot::{Control, CoupledLimit, Joint, Range, SearchSetup, SteeringGains};
 use prone_files::FileError;
-use prone_files::robot_file::{ControlTable, Number, SearchTable};
+use prone_files::robot_file::{ControlTable, CoupledLimitTable, Number, SearchTable};
 
 use super::lookup::Lookup;
 
@@ -47,6 +47,28 @@ pub(super) fn search(lookup: &Lookup<'_>, table: &SearchTable) -> Result<SearchS
         least_advance: lookup.length(advance, "least_advance_mm", *advance.get_ref())?,
         upper_arm: lookup.range(lower, range)?,
     })
+}
+
+pub(super) fn coupled_limits(
+    lookup: &Lookup<'_>,
+    tables: &[CoupledLimitTable],
+    joints: &[Joint],
+) -> Result<Vec<CoupledLimit>, FileError> {
+    let limits = tables.iter().map(|limit| {
+        let (joint, by) = (&limit.joint, &limit.by);
+        let lines = limit.table_deg.iter().map(|&[at, lower, upper]| {
+            let angle = |degrees| lookup.angle(joint, "an angle of table_deg", degrees);
+            let range = Range {
+                lower: angle(lower)?,
+                upper: angle(upper)?,
+            };
+            Ok((angle(at)?, range))
+        });
+        let lines = lines.collect::<Result<_, FileError>>()?;
+        let (limited, other) = (lookup.joint(joint, joints)?, lookup.joint(by, joints)?);
+        CoupledLimit::new(limited, other, lines).map_err(|error| lookup.error(joint, error))
+    });
+    limits.collect()
 }
 
 #[cfg(test)]

@@ -26,6 +26,7 @@ impl Lookup<'_> {
     pub(super) fn assemble(&self, table: RobotFile, mut parts: Parts) -> Result<Robot, FileError> {
         self.group_bodies(&table.contacts, &mut parts)?;
         let shared_motors = self.equip_joints(&table.drives, &table.motors, &mut parts)?;
+        let coupled_limits = control::coupled_limits(self, &table.coupled_limits, &parts.joints)?;
         let chain = self.chain(&table.chain, &parts)?;
         let study = self.study(&table.study, &table.postures, &parts)?;
         let imu = table.imu.as_ref();
@@ -52,6 +53,7 @@ impl Lookup<'_> {
             bodies: parts.bodies,
             joints: parts.joints,
             shared_motors,
+            coupled_limits,
             shapes: parts.shapes,
         };
         check_limbs(&robot).map_err(|error| {

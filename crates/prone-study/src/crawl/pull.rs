@@ -46,7 +46,8 @@ pub fn files(recording: &PullRecording<'_>, program: &Program) -> Result<Artefac
     let instants: Vec<Instant<'_>> = pull.rows.iter().filter_map(instant).collect();
     let subject = Subject {
         command: recording.command,
-        gait: recording.gait,
+        gait: (&recording.gait.name, &recording.gait.description),
+        chain: Some((recording.gait.mapping, recording.gait.arm)),
         file: recording.file,
         command_step_s: CONTROL_STEP,
         rows: instants.len(),

@@ -106,7 +106,12 @@ pub fn numbers(
     } = *recording;
     let subject = Subject {
         command,
-        gait: &gait.cycle.pull,
+        gait: (&gait.cycle.name, &gait.cycle.description),
+        chain: gait
+            .cycle
+            .pull
+            .as_ref()
+            .map(|pull| (pull.mapping, pull.arm)),
         file: (&gait.file, &gait.text),
         command_step_s: world.robot().control.command_step,
         rows: crawl.rows.len(),

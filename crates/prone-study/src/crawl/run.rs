@@ -1,7 +1,7 @@
 //! Under which conditions a crawl or a pull was simulated: `run.json`.
 
-use prone::gait::Gait;
 use prone::gait::cycle::Cycle;
+use prone::mapping::{ArmMode, MappingVariant};
 use prone::regime::{SOLIMP, SOLREF, Servo, Stops, TorqueLimit, VelocityServo};
 use prone::robot::{JointAngles, Robot};
 use prone_sim::{LoadedRobot, World, WorldDrive, WorldServo};
@@ -42,7 +42,10 @@ pub(super) fn offsets_by_name(robot: &Robot, offsets: Option<&JointAngles>) -> V
 /// What tells one record from another: which command made it, of what, how long.
 pub(super) struct Subject<'a> {
     pub(super) command: Command,
-    pub(super) gait: &'a Gait,
+    /// Name of the gait or cycle, and what it is, in words.
+    pub(super) gait: (&'a str, &'a str),
+    /// Of what has a closed chain.
+    pub(super) chain: Option<(MappingVariant, ArmMode)>,
     /// The gait's file, as the user named it, and its text.
     pub(super) file: (&'a str, &'a str),
     /// Time between two commands, s.
@@ -60,17 +63,18 @@ pub(super) fn record_info(
     subject: Subject<'_>,
     program: &Program,
 ) -> RecordInfo {
-    let (gait, (file, text)) = (subject.gait, subject.file);
+    let ((name, description), (file, text)) = (subject.gait, subject.file);
+    let (mapping, arm) = subject.chain.unzip();
     let engine = prone_sim::engine_version();
     RecordInfo {
         head: Head::new(program, subject.command, Some(engine.clone())),
         robot: RobotInfo::of(robot.robot(), robot.files()),
         gait: GaitInfo {
-            name: gait.name.clone(),
-            description: Some(gait.description.clone()),
+            name: name.to_owned(),
+            description: Some(description.to_owned()),
             file: Some(file.to_owned()),
-            mapping: Some(gait.mapping.name().to_owned()),
-            arm: Some(gait.arm.name().to_owned()),
+            mapping: mapping.map(|it| it.name().to_owned()),
+            arm: arm.map(|it| it.name().to_owned()),
             text: Some(text.to_owned()),
         },
         scene: scene_info(world),

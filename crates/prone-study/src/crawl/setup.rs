@@ -66,7 +66,7 @@ impl GaitSource {
 
     /// Whether the cycle ships with the program, and is not a user's.
     pub fn is_shipped(&self) -> bool {
-        let shipped = prone_files::shipped::gait_file(&self.cycle.pull.name);
+        let shipped = prone_files::shipped::gait_file(&self.cycle.name);
         shipped.is_some_and(|shipped| shipped.text == self.text)
     }
 
@@ -179,7 +179,7 @@ impl CrawlSetup {
             return CrawlRunError::Crawl(error);
         };
         let mut sources = self.sources();
-        match sources.find(|it| it.cycle.pull.name == *gait) {
+        match sources.find(|it| it.cycle.name == *gait) {
             Some(gait) => gait.refused(source).into(),
             None => CrawlRunError::Crawl(error),
         }
@@ -237,7 +237,7 @@ impl Steering {
 }
 
 fn steering(choice: SteeringChoice, gait: &GaitSource) -> Result<Steering, CrawlSetupError> {
-    let name = || gait.cycle.pull.name.clone();
+    let name = || gait.cycle.name.clone();
     let limit = gait.cycle.steering.as_ref().map(|steering| steering.limit);
     let needed = || limit.ok_or_else(|| CrawlSetupError::NoSteering { gait: name() });
     match choice {

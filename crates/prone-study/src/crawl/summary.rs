@@ -27,7 +27,7 @@ pub fn of(
 ) -> Result<CrawlSummary, CycleError> {
     let robot = world.robot();
     let checked = CheckedCycle::plan(robot, world.stops(), cycle, 0.0, scale)?;
-    let stride_mm = stride(&checked) * 1e3;
+    let stride_mm = stride(&checked).map(|metres| metres * 1e3);
     let per_cycle = per_cycle(world, &crawl.cycles);
     let (distance_mm, lateral_mm) = per_cycle
         .last()
@@ -38,7 +38,10 @@ pub fn of(
     let mean =
         |of: fn(&CycleSummary) -> f64| per_cycle.iter().map(of).sum::<f64>() / cycles.max(1) as f64;
     let pull_mm_per_cycle = mean(|cycle| cycle.pull_advance_mm);
-    let of_stride = |advance_mm: f64| (stride_mm > 0.0).then(|| advance_mm / stride_mm);
+    let of_stride = |advance_mm: f64| {
+        let forward = stride_mm.filter(|stride| *stride > 0.0);
+        forward.map(|stride| advance_mm / stride)
+    };
     let effort = &crawl.effort;
     let (peak, peak_joint) = effort.peak_over_limit(robot);
     let metres = (path_mm > 0.0).then_some(path_mm / 1e3);
@@ -70,7 +73,7 @@ pub fn of(
         largest_deg: stopped.largest.to_degrees(),
     });
     Ok(CrawlSummary {
-        gait: cycle.pull.name.clone(),
+        gait: cycle.name.clone(),
         robot: robot.name.clone(),
         scene: world.scene().name.clone(),
         cycles,
@@ -227,11 +230,10 @@ fn reason(reason: Reason) -> ReasonSummary {
     }
 }
 
-/// Advance of the shoulder in the planned chain, m.
-fn stride(checked: &CheckedCycle) -> f64 {
-    let samples = checked.pull().samples();
-    let x = |index: usize| samples[index].posture.shoulder.x();
-    x(samples.len() - 1) - x(0)
+/// Advance of the shoulder in the planned chain, m, where there is one.
+fn stride(checked: &CheckedCycle) -> Option<f64> {
+    let pull = checked.pull()?;
+    Some(pull.last().posture.shoulder.x() - pull.first().posture.shoulder.x())
 }
 
 /// Longest share of the time at the current limit, and whose it is.

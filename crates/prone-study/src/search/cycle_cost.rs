@@ -208,10 +208,7 @@ impl CycleCosts {
         let duration = cycle.duration(TimeScale::ONE);
         cost.add("duration", self.aim.rules.broken_by_duration(duration));
         let clamping = Cycle {
-            pull: prone::gait::Gait {
-                limits: LimitsPolicy::Clamp,
-                ..cycle.pull.clone()
-            },
+            limits: LimitsPolicy::Clamp,
             ..cycle.clone()
         };
         // The fastest setting decides whether joints are fast enough.
@@ -339,18 +336,24 @@ fn depth_of(distance: f64) -> f64 {
 
 /// Postures of a planned cycle, pull and recovery.
 fn planned_postures(checked: &CheckedCycle) -> Result<Vec<JointAngles>, CycleError> {
-    let seconds = checked.pull().duration().seconds();
     let share = |k: usize, of: usize| k as f64 / of as f64;
-    let mut postures: Vec<JointAngles> = (0..=PLAN_SAMPLES)
-        .map(|k| checked.pull_at(seconds * share(k, PLAN_SAMPLES)))
+    let seconds = checked.pull_seconds();
+    let count = if checked.pull().is_some() {
+        PLAN_SAMPLES
+    } else {
+        0
+    };
+    let mut postures: Vec<JointAngles> = (0..=count)
+        .map(|k| checked.pull_at(seconds * share(k, count.max(1))))
         .collect();
     let path = checked.recovery_after(checked)?;
-    let (seconds, count) = (checked.recovery_seconds(), 3 * PLAN_SAMPLES);
+    let (seconds, count) = (checked.recovery_seconds(), 4 * PLAN_SAMPLES - count);
     postures.extend((1..count).map(|k| path.at(seconds * share(k, count))));
     Ok(postures)
 }
 
-/// Postures of a pull that are looked at for collisions; three times as many of a recovery.
+/// Postures of a pull that are looked at for collisions; three times as many of the way back, and
+/// four times as many of a cycle without a pull.
 const PLAN_SAMPLES: usize = 8;
 
 #[cfg(test)]

@@ -7,7 +7,7 @@
 
 use std::collections::BTreeMap;
 
-use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale};
+use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, Pull, TimeScale};
 use prone::gait::{Curve, CurveError, PhaseDuration};
 use prone::robot::{Mirror, Range, Robot};
 use prone_optim::{Interval, IntervalError};
@@ -36,7 +36,9 @@ enum Variable {
     Curve(PullCurve, usize),
     /// A waypoint's joint.
     Joint(usize, String),
-    /// A stretch's time; the pull's, then the waypoints', then the approach's.
+    /// The pull's time.
+    PullTime,
+    /// The time of the way to a waypoint, or, beyond the last one, to the pull's first posture.
     Time(usize),
 }
 
@@ -88,22 +90,10 @@ impl CycleForm {
             bounds: Vec::new(),
         };
         let middle = form.middle.clone();
-        for (which, curve, within) in [
-            (PullCurve::Knee, &middle.pull.knee, None),
-            (PullCurve::Hip, &middle.pull.hip, None),
-            (
-                PullCurve::UpperArm,
-                &middle.pull.upper_arm,
-                Some(robot.search.upper_arm),
-            ),
-        ] {
-            form.curve(&which, curve, within)?;
+        if let Some(pull) = &middle.pull {
+            form.pull(robot, pull)?;
         }
-        for (joint, curve) in &middle.company {
-            let within = robot.joint(joint).map(|id| robot.joints[id.0].range);
-            form.curve(&PullCurve::Company(joint.clone()), curve, within)?;
-        }
-        for (index, waypoint) in middle.recovery.iter().enumerate() {
+        for (index, waypoint) in middle.waypoints.iter().enumerate() {
             for (joint, &angle) in &waypoint.joints {
                 let range = robot.joint(joint).map(|id| robot.joints[id.0].range);
                 let range = range.unwrap_or(ANY);
@@ -115,16 +105,36 @@ impl CycleForm {
                 )?;
             }
         }
-        for (index, seconds) in times(&middle).into_iter().enumerate() {
-            form.variables.push(Variable::Time(index));
+        for (variable, seconds) in times(&middle) {
+            let name = format!("{variable:?}");
+            form.variables.push(variable);
             let interval = Interval::new(seconds / TIME_REACH, seconds * TIME_REACH);
             form.bounds
                 .push(interval.map_err(|source| CycleFormError::Interval {
-                    variable: format!("time {index}"),
+                    variable: name,
                     source,
                 })?);
         }
         Ok(form)
+    }
+
+    fn pull(&mut self, robot: &Robot, pull: &Pull) -> Result<(), CycleFormError> {
+        for (which, curve, within) in [
+            (PullCurve::Knee, &pull.knee, None),
+            (PullCurve::Hip, &pull.hip, None),
+            (
+                PullCurve::UpperArm,
+                &pull.upper_arm,
+                Some(robot.search.upper_arm),
+            ),
+        ] {
+            self.curve(&which, curve, within)?;
+        }
+        for (joint, curve) in &pull.company {
+            let within = robot.joint(joint).map(|id| robot.joints[id.0].range);
+            self.curve(&PullCurve::Company(joint.clone()), curve, within)?;
+        }
+        Ok(())
     }
 
     fn curve(
@@ -186,23 +196,33 @@ impl CycleForm {
                     }
                 }
                 Variable::Joint(index, joint) => {
-                    cycle.recovery[*index].joints.insert(joint.clone(), value);
+                    cycle.waypoints[*index].joints.insert(joint.clone(), value);
                 }
-                Variable::Time(0) => cycle.pull_duration = PhaseDuration::new(value)?,
-                Variable::Time(index) => match cycle.recovery.get_mut(index - 1) {
-                    Some(waypoint) => waypoint.approach.seconds = value,
-                    None => cycle.approach.seconds = value,
-                },
+                Variable::PullTime => {
+                    if let Some(pull) = &mut cycle.pull {
+                        pull.duration = PhaseDuration::new(value)?;
+                    }
+                }
+                Variable::Time(index) => {
+                    let waypoint = cycle.waypoints.get_mut(*index).map(|it| &mut it.approach);
+                    let approach = cycle.pull.as_mut().map(|pull| &mut pull.approach);
+                    if let Some(approach) = waypoint.or(approach) {
+                        approach.seconds = value;
+                    }
+                }
             }
         }
+        let Some(pull) = &mut cycle.pull else {
+            return Ok(cycle);
+        };
         for (which, values) in controls {
             let curve = Curve::b_spline(CONTROLS - 1, values)?;
             match which {
-                PullCurve::Knee => cycle.pull.knee = curve,
-                PullCurve::Hip => cycle.pull.hip = curve,
-                PullCurve::UpperArm => cycle.pull.upper_arm = curve,
+                PullCurve::Knee => pull.knee = curve,
+                PullCurve::Hip => pull.hip = curve,
+                PullCurve::UpperArm => pull.upper_arm = curve,
                 PullCurve::Company(joint) => {
-                    cycle.company.insert(joint, curve);
+                    pull.company.insert(joint, curve);
                 }
             }
         }
@@ -215,16 +235,14 @@ const ANY: Range = Range {
     upper: std::f64::consts::PI,
 };
 
-fn times(cycle: &Cycle) -> Vec<f64> {
-    let mut times = vec![cycle.pull_duration.seconds()];
-    times.extend(
-        cycle
-            .recovery
-            .iter()
-            .map(|waypoint| waypoint.approach.seconds),
-    );
-    times.push(cycle.approach.seconds);
-    times
+/// What of a cycle takes how long, s.
+fn times(cycle: &Cycle) -> Vec<(Variable, f64)> {
+    let pull = cycle.pull.as_ref();
+    let own = pull.map(|pull| (Variable::PullTime, pull.duration.seconds()));
+    let ways = cycle.waypoints.iter().map(|waypoint| waypoint.approach);
+    let ways = ways.chain(pull.map(|pull| pull.approach)).enumerate();
+    let ways = ways.map(|(index, way)| (Variable::Time(index), way.seconds));
+    own.into_iter().chain(ways).collect()
 }
 
 /// The cycle with every joint that its recovery moves named at every waypoint.
@@ -233,7 +251,7 @@ fn completed(robot: &Robot, cycle: &Cycle) -> Result<Cycle, CycleError> {
     let checked = CheckedCycle::plan(robot, &stops, cycle, 0.0, TimeScale::ONE)?;
     let path = checked.recovery_after(&checked)?;
     let named: Vec<&String> = cycle
-        .recovery
+        .waypoints
         .iter()
         .flat_map(|w| w.joints.keys())
         .collect();
@@ -253,7 +271,7 @@ fn completed(robot: &Robot, cycle: &Cycle) -> Result<Cycle, CycleError> {
         .collect();
     let mut completed = cycle.clone();
     let ends = checked.recovery_ends();
-    for (waypoint, (_, end)) in completed.recovery.iter_mut().zip(ends) {
+    for (waypoint, (_, end)) in completed.waypoints.iter_mut().zip(ends) {
         let posture = path.at(end);
         let all: BTreeMap<String, f64> = joints
             .iter()
@@ -312,16 +330,14 @@ mod tests {
         let loaded = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
         let form = |cycle: &Cycle| CycleForm::about(loaded.robot(), cycle).unwrap();
         let cycle = shipped::cycle("low-175").unwrap().unwrap();
-        let long = Cycle {
-            pull_duration: PhaseDuration::new(500.0).unwrap(),
-            ..cycle.clone()
-        };
+        let mut long = cycle.clone();
+        long.pull.as_mut().unwrap().duration = PhaseDuration::new(500.0).unwrap();
         let form = form(&long);
         let mut point = form.point(&form.middle);
         let time = form
             .variables
             .iter()
-            .position(|it| *it == Variable::Time(0));
+            .position(|it| *it == Variable::PullTime);
         let time = time.unwrap();
         assert!(form.bounds[time].high() > PhaseDuration::LONGEST);
         point[time] = 650.0;
@@ -334,7 +350,7 @@ mod tests {
         let message = "the pull: a phase of 650 s is outside 0.1..600 s";
         assert_eq!(refused.to_string(), message);
         point[time] = 600.0;
-        let found = form.cycle(&point).unwrap().pull_duration.seconds();
+        let found = form.cycle(&point).unwrap().pull_seconds();
         assert!((found - 600.0).abs() < f64::EPSILON, "{found} s");
         let short = form.cycle(&point[1..]).unwrap_err();
         let (numbers, variables) = (point.len() - 1, point.len());
@@ -345,13 +361,16 @@ mod tests {
         /// The numbers of a cycle.
         fn point(&self, cycle: &Cycle) -> Vec<f64> {
             let at = |curve: &Curve, control: usize| controls(curve)[control];
+            let times = times(cycle);
+            let time = |of: &Variable| times.iter().find(|(it, _)| it == of).unwrap().1;
+            let pull = || cycle.pull.as_ref().unwrap();
             let numbers = self.variables.iter().map(|variable| match variable {
-                Variable::Curve(PullCurve::Knee, control) => at(&cycle.pull.knee, *control),
-                Variable::Curve(PullCurve::Hip, control) => at(&cycle.pull.hip, *control),
-                Variable::Curve(PullCurve::UpperArm, c) => at(&cycle.pull.upper_arm, *c),
-                Variable::Curve(PullCurve::Company(joint), c) => at(&cycle.company[joint], *c),
-                Variable::Joint(index, joint) => cycle.recovery[*index].joints[joint],
-                Variable::Time(index) => times(cycle)[*index],
+                Variable::Curve(PullCurve::Knee, control) => at(&pull().knee, *control),
+                Variable::Curve(PullCurve::Hip, control) => at(&pull().hip, *control),
+                Variable::Curve(PullCurve::UpperArm, c) => at(&pull().upper_arm, *c),
+                Variable::Curve(PullCurve::Company(joint), c) => at(&pull().company[joint], *c),
+                Variable::Joint(index, joint) => cycle.waypoints[*index].joints[joint],
+                Variable::PullTime | Variable::Time(_) => time(variable),
             });
             numbers.collect()
         }

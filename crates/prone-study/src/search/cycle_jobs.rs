@@ -137,7 +137,7 @@ pub fn jobs(
         };
         let job = Job {
             ceiling_mm: mm,
-            base: base.pull.name.clone(),
+            base: base.name.clone(),
             candidates: CycleSearch::new(robot.robot(), &searched, aim, base)?,
         };
         Ok((job, base.clone()))
@@ -167,7 +167,7 @@ pub fn plan(
         head.add_base(&other.called, &other.gait.text);
     }
     for (_, base) in jobs {
-        head.add_base(&base.pull.name, &cycle_file::write(base, ""));
+        head.add_base(&base.name, &cycle_file::write(base, ""));
     }
     CyclePlan {
         head,
@@ -354,7 +354,7 @@ pub fn base<'c>(
     for cycle in cycles {
         match try_out(setting, cycle) {
             Ok(trial) => tried.push((cycle, trial)),
-            Err(error) => refused.push((cycle.pull.name.clone(), error)),
+            Err(error) => refused.push((cycle.name.clone(), error)),
         }
     }
     let below = tried.iter().filter(|(_, trial)| trial.top.0 <= height);

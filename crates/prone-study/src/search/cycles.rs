@@ -91,7 +91,7 @@ impl CycleRun {
             (None, Some(mm)) => format!("under-{}", mm.to_string().replace('.', "-")),
             (None, None) => "open".to_owned(),
         };
-        cycle.pull.name = format!("{stem}-seed-{}", run.seed);
+        cycle.name = format!("{stem}-seed-{}", run.seed);
         let steering = match cycle.steering {
             None => Ok(()),
             Some(_) => check_steering(&self.steering, &cycle),
@@ -102,7 +102,7 @@ impl CycleRun {
         let under = job
             .ceiling_mm
             .map_or_else(String::new, |mm| format!(" under {mm} mm"));
-        cycle.pull.description = format!(
+        cycle.description = format!(
             "searched{under} about {} for {}, seed {}, {} evaluations",
             job.base,
             self.objective.name(),
@@ -113,7 +113,7 @@ impl CycleRun {
             ceiling_mm: job.ceiling_mm,
             seed: run.seed,
             evaluations: run.evaluations(),
-            gait: cycle.pull.name.clone(),
+            gait: cycle.name.clone(),
             value: Some(cost.value).filter(|value| value.is_finite()),
             violation: cost.violation,
             broken: cost.broken,
@@ -130,7 +130,7 @@ impl CycleRun {
             "Found by prone {} ({}): {}.\nBreaks {:.4} of the rules of its search. Crawled in other settings:\n{}",
             head.version,
             head.commit,
-            cycle.pull.description,
+            cycle.description,
             found.violation,
             found.sentence()
         )
@@ -150,7 +150,7 @@ impl CycleRun {
         artefacts.insert("history.csv".into(), history);
         for ((cycle, _), found) in cycles.iter().zip(&frontier.found) {
             let text = cycle_file::write(cycle, &self.header(cycle, found));
-            artefacts.insert(format!("gaits/{}.toml", cycle.pull.name), text.into_bytes());
+            artefacts.insert(format!("gaits/{}.toml", cycle.name), text.into_bytes());
         }
         let found = cycles.iter().zip(&frontier.found);
         let order = |found: &Found| {
@@ -163,7 +163,7 @@ impl CycleRun {
         });
         if let (Some(name), Some(((cycle, _), found))) = (&self.name, best) {
             let mut cycle = cycle.clone();
-            cycle.pull.name.clone_from(name);
+            cycle.name.clone_from(name);
             let text = cycle_file::write(&cycle, &self.header(&cycle, found));
             artefacts.insert("gait.toml".into(), text.into_bytes());
         }
@@ -223,7 +223,7 @@ impl SearchRun for CycleRun {
             rows.any(|row| row.refused.is_none())
         });
         let compared = others.map(|(cycle, confirmed)| Compared {
-            gait: cycle.pull.name.clone(),
+            gait: cycle.name.clone(),
             confirmed,
         });
         let frontier = Frontier {

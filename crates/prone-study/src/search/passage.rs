@@ -97,7 +97,7 @@ impl Passage {
             match try_out(setting, cycle) {
                 Ok(trial) => passage.take(Tried::from_trial(cycle, &trial, ceiling), origin),
                 Err(error) => {
-                    let name = cycle.pull.name.clone();
+                    let name = cycle.name.clone();
                     passage.refused.push((name, error.to_string()));
                 }
             }
@@ -149,7 +149,7 @@ impl Tried {
     /// What a cycle came to under a ceiling, m.
     pub fn from_trial(cycle: &Cycle, trial: &Trial, ceiling: f64) -> Self {
         Self {
-            gait: cycle.pull.name.clone(),
+            gait: cycle.name.clone(),
             top_mm: trial.top.0 * 1e3,
             top_part: trial.top.1.name().to_owned(),
             left_mm: (ceiling - trial.top.0) * 1e3,
@@ -206,7 +206,7 @@ impl Passage {
         let mut cycle = searched.gait(&best.point)?;
         let cost = searched.cost(&cycle, Depth::Everything);
         let ceiling_name = ceiling_mm.to_string().replace('.', "-");
-        cycle.pull.name = format!("under-{ceiling_name}-seed-{}", asked.seed);
+        cycle.name = format!("under-{ceiling_name}-seed-{}", asked.seed);
         let Some(trial) = cost.trials.first() else {
             return Ok(None);
         };

@@ -38,10 +38,10 @@ pub struct Trial {
 
 /// Crawls a cycle in one setting.
 pub fn try_out(setting: &Setting, cycle: &Cycle) -> Result<Trial, CrawlError> {
-    let cycle = Cycle {
-        pull_duration: setting.spec.pull.unwrap_or(cycle.pull_duration),
-        ..cycle.clone()
-    };
+    let mut cycle = cycle.clone();
+    if let (Some(pull), Some(duration)) = (&mut cycle.pull, setting.spec.pull) {
+        pull.duration = duration;
+    }
     let limit = cycle
         .steering
         .as_ref()

@@ -34,11 +34,6 @@ pub(super) enum Course {
     Recovery { path: RecoveryPath, seconds: f64 },
 }
 
-impl PhaseKind {
-    /// The phases of a cycle, in order.
-    pub(super) const ALL: [Self; 2] = [Self::ClosedChain, Self::Waypoints];
-}
-
 impl Course {
     /// How long it lasts, s.
     pub(super) fn seconds(&self) -> f64 {
@@ -46,7 +41,7 @@ impl Course {
             Self::Way { seconds, .. }
             | Self::Rest { seconds, .. }
             | Self::Recovery { seconds, .. } => *seconds,
-            Self::Pull(cycle) => cycle.pull().duration().seconds(),
+            Self::Pull(cycle) => cycle.pull_seconds(),
         }
     }
 
@@ -68,9 +63,10 @@ impl Course {
         match self {
             Self::Pull(cycle) => {
                 let s = time.min(self.seconds()) / self.seconds();
+                let pull = cycle.pull();
                 Stage::Pull {
                     s,
-                    planned_pitch: cycle.pull().nearest(s).root_pitch,
+                    planned_pitch: pull.map_or(cycle.root_pitch(), |it| it.nearest(s).root_pitch),
                 }
             }
             Self::Way { .. } | Self::Rest { .. } | Self::Recovery { .. } => Stage::Recovery,

@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use crate::gait::Sample;
 use crate::gait::cycle::CheckedCycle;
 use crate::port::{JointCommand, Senses};
 use crate::robot::{JointAngles, Range, Robot};
@@ -64,8 +63,8 @@ enum Part {
     Way,
     /// The rest in it.
     Rest,
-    /// A phase of the cycle, by its place.
-    Phase(usize),
+    /// A phase of the cycle.
+    Phase(PhaseKind),
 }
 
 impl<P: Pilot> Crawler<P> {
@@ -163,7 +162,7 @@ impl<P: Pilot> Crawler<P> {
         let Doing::Following(it) = &self.doing else {
             return false;
         };
-        let last = matches!(it.part, Part::Phase(index) if index + 1 == PhaseKind::ALL.len());
+        let last = matches!(it.part, Part::Phase(PhaseKind::Waypoints));
         last && self.is_over(it, time)
     }
 
@@ -209,11 +208,6 @@ impl<P: Pilot> Crawler<P> {
         }
     }
 
-    /// Where the first cycle begins.
-    pub fn first_pose(&self) -> &Sample {
-        self.cycle.pull().first()
-    }
-
     /// Number, from 1, and name of the cycle that an error would be about.
     pub fn at(&self) -> (usize, String) {
         (self.done + 1, self.cycle.name().to_owned())
@@ -244,7 +238,7 @@ impl<P: Pilot> Crawler<P> {
     fn begin(&mut self, senses: &Senses) -> Result<(), CrawlerError> {
         let now = senses.time;
         let speed = match self.program.begin {
-            Begin::InExtension { rest } => return self.rest(rest, now),
+            Begin::InExtension { rest } => return self.rest(rest, senses),
             Begin::Lying { speed, .. } => speed,
         };
         let (measured, to) = (&senses.angles, self.cycle.extension());
@@ -263,12 +257,12 @@ impl<P: Pilot> Crawler<P> {
         Ok(())
     }
 
-    fn rest(&mut self, seconds: f64, now: f64) -> Result<(), CrawlerError> {
+    fn rest(&mut self, seconds: f64, senses: &Senses) -> Result<(), CrawlerError> {
         if self.program.timing.ticks(seconds) == 0 {
-            return self.begin_cycle(now);
+            return self.begin_cycle(senses);
         }
         let posture = self.cycle.extension().clone();
-        self.follow(Part::Rest, Course::Rest { posture, seconds }, now);
+        self.follow(Part::Rest, Course::Rest { posture, seconds }, senses.time);
         Ok(())
     }
 
@@ -289,32 +283,35 @@ impl<P: Pilot> Crawler<P> {
                 self.follow(Part::Way, *way, senses.time);
                 Ok(())
             }
-            Part::Way => self.rest(self.program.begin.rest(), senses.time),
-            Part::Rest => self.begin_cycle(senses.time),
-            Part::Phase(index) => self.end_phase(index, senses),
+            Part::Way => self.rest(self.program.begin.rest(), senses),
+            Part::Rest => self.begin_cycle(senses),
+            Part::Phase(phase) => self.end_phase(phase, senses),
         }
     }
 
-    fn end_phase(&mut self, index: usize, senses: &Senses) -> Result<(), CrawlerError> {
-        let phase = PhaseKind::ALL[index];
+    fn end_phase(&mut self, phase: PhaseKind, senses: &Senses) -> Result<(), CrawlerError> {
         self.events.push(Event::PhaseEnded(phase));
-        // The way back leads to what comes next.
-        if phase == PhaseKind::ClosedChain {
-            self.decide(senses)?;
+        match phase {
+            PhaseKind::ClosedChain => {
+                // The way back leads to what comes next.
+                let next = self.decide(senses, self.done + 2)?;
+                self.begin_waypoints(&next, self.done + 2, senses.time)?;
+                self.next = Some(next);
+                Ok(())
+            }
+            PhaseKind::Waypoints => {
+                self.done += 1;
+                self.events.push(Event::CycleEnded);
+                if let Some(next) = self.next.take() {
+                    self.cycle = next;
+                }
+                self.begin_cycle(senses)
+            }
         }
-        if index + 1 < PhaseKind::ALL.len() {
-            return self.begin_phase(index + 1, senses.time);
-        }
-        self.done += 1;
-        self.events.push(Event::CycleEnded);
-        if let Some(next) = self.next.take() {
-            self.cycle = next;
-        }
-        self.begin_cycle(senses.time)
     }
 
     /// The next cycle, or the end.
-    fn begin_cycle(&mut self, now: f64) -> Result<(), CrawlerError> {
+    fn begin_cycle(&mut self, senses: &Senses) -> Result<(), CrawlerError> {
         if let Some(halt) = self.halt {
             self.end(Ended::Halted(halt));
             return Ok(());
@@ -323,30 +320,44 @@ impl<P: Pilot> Crawler<P> {
             self.end(Ended::Cycles);
             return Ok(());
         }
+        if self.cycle.pull().is_some() {
+            self.events.push(Event::CycleBegan);
+            let pull = Course::Pull(Arc::clone(&self.cycle));
+            self.follow(Part::Phase(PhaseKind::ClosedChain), pull, senses.time);
+            return Ok(());
+        }
+        let next = self.decide(senses, self.done + 1)?;
+        self.begin_waypoints(&next, self.done + 1, senses.time)?;
+        self.cycle = next;
         self.events.push(Event::CycleBegan);
-        self.begin_phase(0, now)
-    }
-
-    fn begin_phase(&mut self, index: usize, now: f64) -> Result<(), CrawlerError> {
-        let course = match PhaseKind::ALL[index] {
-            PhaseKind::ClosedChain => Course::Pull(Arc::clone(&self.cycle)),
-            PhaseKind::Waypoints => {
-                let next = self.next.as_ref().unwrap_or(&self.cycle);
-                let path = next.recovery_after(&self.cycle);
-                let path = path.map_err(|source| CrawlerError::Cycle {
-                    cycle: self.done + 2,
-                    gait: next.name().to_owned(),
-                    source: Box::new(source),
-                })?;
-                let seconds = next.recovery_seconds();
-                Course::Recovery { path, seconds }
-            }
-        };
-        self.follow(Part::Phase(index), course, now);
         Ok(())
     }
 
-    fn decide(&mut self, senses: &Senses) -> Result<(), CrawlerError> {
+    /// Goes along the waypoints to the extension of `next`, the crawl's `number`th cycle.
+    fn begin_waypoints(
+        &mut self,
+        next: &CheckedCycle,
+        number: usize,
+        now: f64,
+    ) -> Result<(), CrawlerError> {
+        let path = next.recovery_after(&self.cycle);
+        let path = path.map_err(|source| CrawlerError::Cycle {
+            cycle: number,
+            gait: next.name().to_owned(),
+            source: Box::new(source),
+        })?;
+        let seconds = next.recovery_seconds();
+        let course = Course::Recovery { path, seconds };
+        self.follow(Part::Phase(PhaseKind::Waypoints), course, now);
+        Ok(())
+    }
+
+    /// Plans what the pilot decides for, the crawl's `number`th cycle.
+    fn decide(
+        &mut self,
+        senses: &Senses,
+        number: usize,
+    ) -> Result<Arc<CheckedCycle>, CrawlerError> {
         let moment = Moment {
             robot: &self.robot,
             senses,
@@ -355,9 +366,8 @@ impl<P: Pilot> Crawler<P> {
         };
         let decision = self.pilot.decide(&moment);
         let decision = decision.map_err(|source| self.pilot_error(source))?;
-        let (program, number) = (&self.program, self.done + 2);
-        self.next = Some(program.plan(&self.robot, &self.stops, decision, number)?);
-        Ok(())
+        self.program
+            .plan(&self.robot, &self.stops, decision, number)
     }
 
     /// What the activity commands now, if it is anything new.

@@ -5,7 +5,7 @@ use crate::port::Senses;
 use crate::robot::Robot;
 use crate::steering::{HeadingHold, TurnTo};
 
-/// Decides at the end of each pull.
+/// Decides at the end of each pull; of a cycle without one, when it begins.
 pub trait Pilot {
     /// What comes next.
     ///
@@ -34,7 +34,7 @@ pub struct Moment<'a> {
     /// Time since the moment before, s; 0 where the pilot decides.
     pub elapsed: f64,
     /// What it has been doing in that time; where the pilot decides, always [`Stage::Recovery`], as
-    /// the pull is over then.
+    /// no pull goes on then.
     pub stage: Stage,
 }
 

@@ -13,7 +13,7 @@ use super::timing::Timing;
 /// What is crawled.
 #[derive(Debug, Clone)]
 pub struct Program {
-    /// The cycles between which the pilot chooses; the first one begins, without a turn.
+    /// The cycles between which the pilot chooses; the first one begins, its pull without a turn.
     pub cycles: Vec<Cycle>,
     /// What all durations are multiplied by.
     pub scale: TimeScale,
@@ -28,7 +28,7 @@ pub struct Program {
 /// How a crawl begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Begin {
-    /// In the first cycle's extension ([`super::Crawler::first_pose`]), where it rests first. Whoever begins
+    /// In the first cycle's extension ([`CheckedCycle::extension`]), where it rests first. Whoever begins
     /// so has brought the robot there: the first set-point is commanded wherever the joints are.
     InExtension {
         /// For how long, s.
@@ -96,7 +96,7 @@ impl Program {
         let planned = CheckedCycle::plan(robot, stops, cycle, decision.turn, self.scale);
         planned.map(Arc::new).map_err(|source| CrawlerError::Cycle {
             cycle: number,
-            gait: cycle.pull.name.clone(),
+            gait: cycle.name.clone(),
             source: Box::new(source),
         })
     }

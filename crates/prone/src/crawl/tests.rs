@@ -8,8 +8,8 @@ use glam::DVec3;
 use super::*;
 use crate::attitude::ImuReading;
 use crate::frames::Transform;
-use crate::gait::cycle::{Approach, Cycle, Easing, Steering, TimeScale, Waypoint};
-use crate::gait::{Curve, Gait, LimitsPolicy, PhaseDuration};
+use crate::gait::cycle::{Approach, Cycle, Easing, Pull, Steering, TimeScale, Waypoint};
+use crate::gait::{Curve, LimitsPolicy, PhaseDuration};
 use crate::mapping::{ArmMode, MappingVariant};
 use crate::port::{InertialUnit, JointCommand, Senses};
 use crate::robot::testing::two_armed;
@@ -20,19 +20,6 @@ use crate::steering::{Bearing, HeadingHold};
 const TICK: f64 = 0.0025;
 const EVERY: f64 = 0.01;
 
-fn gait(name: &str) -> Gait {
-    Gait {
-        name: name.to_owned(),
-        description: String::new(),
-        knee: Curve::constant(0.35).unwrap(),
-        hip: Curve::constant(0.35).unwrap(),
-        upper_arm: Curve::linear(-0.6, -1.2).unwrap(),
-        mapping: MappingVariant::Exact,
-        arm: ArmMode::FlatForearm,
-        limits: LimitsPolicy::Refuse,
-    }
-}
-
 /// Half a second of pull, and half a second back by way of one waypoint.
 fn cycle(name: &str) -> Cycle {
     let approach = Approach {
@@ -40,18 +27,29 @@ fn cycle(name: &str) -> Cycle {
         easing: Easing::Smoothstep,
     };
     Cycle {
-        rest: 0.0,
-        pull: gait(name),
-        pull_duration: PhaseDuration::new(0.5).unwrap(),
-        company: BTreeMap::new(),
-        recovery: vec![Waypoint {
+        name: name.to_owned(),
+        description: String::new(),
+        limits: LimitsPolicy::Refuse,
+        pull: Some(Pull {
+            knee: Curve::constant(0.35).unwrap(),
+            hip: Curve::constant(0.35).unwrap(),
+            upper_arm: Curve::linear(-0.6, -1.2).unwrap(),
+            mapping: MappingVariant::Exact,
+            arm: ArmMode::FlatForearm,
+            duration: PhaseDuration::new(0.5).unwrap(),
+            company: BTreeMap::new(),
+            approach,
+        }),
+        waypoints: vec![Waypoint {
             name: "lift".to_owned(),
             approach,
             joints: BTreeMap::new(),
+            turn: BTreeMap::new(),
         }],
-        approach,
+        rest: 0.0,
         steering: Some(Steering {
             limit: 0.2,
+            dead_band: 0.0,
             spread: 1.0,
             joints: BTreeMap::new(),
         }),
@@ -133,7 +131,7 @@ fn crawl<P: Pilot>(
     crawler: &mut Crawler<P>,
     mut change: impl FnMut(&mut Senses) -> Sensed,
 ) -> Result<Log, CrawlerError> {
-    let mut angles = crawler.first_pose().joints.clone();
+    let mut angles = crawler.cycle().extension().clone();
     let mut log = Log {
         commands: Vec::new(),
         events: Vec::new(),
@@ -193,7 +191,7 @@ fn phases_and_cycles_follow_one_another() {
     }
     assert_eq!(crawler.cycles_done(), 2);
     // It ends where it began, and hands over from there.
-    let extension = crawler.first_pose().joints.clone();
+    let extension = crawler.cycle().extension().clone();
     assert_eq!(crawler.commanded(), Some(&extension));
     assert_eq!(
         crawler.tick(&senses(9.0, &extension)),
@@ -221,7 +219,7 @@ fn set_points_are_those_of_the_planned_pull() {
 fn segments_go_where_set_points_go() {
     let points = crawl(&mut straight(2, AT_ONCE, set_points()), whole).unwrap();
     let mut crawler = straight(2, AT_ONCE, Delivery::Segments { every: EVERY });
-    let extension = crawler.first_pose().joints.clone();
+    let extension = crawler.cycle().extension().clone();
     let segments = crawl(&mut crawler, whole).unwrap();
     assert_eq!(segments.events, points.events);
     assert_eq!(segments.commands.len(), 4, "one a phase");
@@ -292,7 +290,7 @@ fn a_crawl_stops_after_the_cycle_or_at_once() {
             if tick == 100 {
                 crawler.stop(halt);
             }
-            let angles = crawler.first_pose().joints.clone();
+            let angles = crawler.cycle().extension().clone();
             let command = crawler.tick(&senses(time, &angles)).unwrap();
             commands.push(command);
             if let Some(ended) = crawler.ended() {
@@ -305,7 +303,7 @@ fn a_crawl_stops_after_the_cycle_or_at_once() {
     let reference = straight(1, AT_ONCE, set_points());
     let (time, posture, _) = stopped_at(Halt::AfterCycle, set_points());
     assert!((time - 1.0).abs() < 1e-9, "{time} s");
-    assert_eq!(posture, reference.first_pose().joints.clone());
+    assert_eq!(posture, reference.cycle().extension().clone());
     // 0.25 s into the pull, its last set-point is that of 0.25 s.
     for delivery in [set_points(), Delivery::Segments { every: EVERY }] {
         let (time, posture, commands) = stopped_at(Halt::AtOnce, delivery);
@@ -325,7 +323,7 @@ fn a_crawl_stops_after_the_cycle_or_at_once() {
 fn a_crawl_that_is_stopped_before_it_begins_ends_at_its_first_tick() {
     for halt in [Halt::AfterCycle, Halt::AtOnce] {
         let mut crawler = straight(2, AT_ONCE, set_points());
-        let measured = crawler.first_pose().joints.clone();
+        let measured = crawler.cycle().extension().clone();
         crawler.stop(halt);
         let command = crawler.tick(&senses(3.0, &measured)).unwrap();
         assert_eq!(command, JointCommand::Continue);
@@ -356,7 +354,7 @@ fn a_lying_robot_is_held_where_it_lies_before_it_goes_along_a_path() {
             break;
         }
     }
-    let extension = crawler.first_pose().joints.clone();
+    let extension = crawler.cycle().extension().clone();
     assert_eq!(commands[0], (0, JointCommand::SetPoint(lying)));
     let (tick, JointCommand::Segment(way)) = &commands[1] else {
         panic!("{commands:?}");
@@ -415,7 +413,7 @@ fn a_lying_robot_goes_to_the_extension_within_its_speeds() {
         }
     }
     assert!(began.unwrap() > 0.5, "{began:?}");
-    assert_eq!(last, crawler.first_pose().joints.clone());
+    assert_eq!(last, crawler.cycle().extension().clone());
 }
 
 /// Chooses a cycle by number, and remembers what it felt.
@@ -453,7 +451,7 @@ fn the_pilot_decides_once_a_cycle_and_feels_every_tick() {
     };
     let mut crawler = crawler_of(program, pilot);
     let mut names = Vec::new();
-    let mut angles = crawler.first_pose().joints.clone();
+    let mut angles = crawler.cycle().extension().clone();
     let mut ticks = 0_usize;
     while crawler.ended().is_none() {
         let time = ticks as f64 * TICK;
@@ -473,7 +471,7 @@ fn the_pilot_decides_once_a_cycle_and_feels_every_tick() {
 #[test]
 fn an_error_names_the_cycle_that_it_is_about() {
     let mut broken = cycle("broken");
-    broken.pull.upper_arm = Curve::linear(-0.6, 1.4).unwrap();
+    broken.pull.as_mut().unwrap().upper_arm = Curve::linear(-0.6, 1.4).unwrap();
     let program = program(&[cycle("good"), broken], 9, AT_ONCE, set_points());
     let pilot = Choosing {
         cycles: vec![0, 1],
@@ -492,8 +490,8 @@ fn an_error_names_the_cycle_that_it_is_about() {
 fn limit_senses_that_are_none() {
     let robot = robot();
     let good = straight(1, AT_ONCE, set_points())
-        .first_pose()
-        .joints
+        .cycle()
+        .extension()
         .clone();
     let short = JointAngles::from_fn(3, |_| 0.0);
     let mut unknown = good.clone();
@@ -519,8 +517,8 @@ fn limit_senses_that_are_none() {
 #[test]
 fn limit_a_clock_that_leaps_or_stands_still() {
     let good = straight(1, AT_ONCE, set_points())
-        .first_pose()
-        .joints
+        .cycle()
+        .extension()
         .clone();
     let mut crawler = straight(1, AT_ONCE, set_points());
     crawler.tick(&senses(0.5, &good)).unwrap();
@@ -635,7 +633,7 @@ fn the_slope_that_is_felt_has_the_sign_of_the_slope() {
     let robot = robot();
     for slope in [-6.0_f64, 0.0, 6.0] {
         let mut crawler = crawler_of(two_cycles(), slope_aware(3.0));
-        let pitch = crawler.first_pose().root_pitch;
+        let pitch = crawler.cycle().root_pitch();
         crawl(&mut crawler, |senses| {
             on_slope(&robot, pitch, slope.to_radians(), senses);
             Sensed::Whole
@@ -668,7 +666,7 @@ fn a_failing_inertial_unit_is_an_error_and_never_silence() {
         (InertialUnit::Reading(nonsense), "NaN"),
     ] {
         let mut crawler = crawler_of(two_cycles(), slope_aware(45.0));
-        let pitch = crawler.first_pose().root_pitch;
+        let pitch = crawler.cycle().root_pitch();
         let error = crawl(&mut crawler, |senses| {
             on_slope(&robot, pitch, 0.0, senses);
             if senses.time > 1.4 {

@@ -1,20 +1,33 @@
-//! Whole crawl cycles: extension, pull, and the way back to the next extension.
+//! Whole crawl cycles: from an extension back to the next one, one advance further on.
 //!
 //! ```text
-//! extension ──pull (closed chain)──> compression ──waypoint──> … ──approach──> extension
+//! with a pull:  extension ──pull (closed chain)──> compression ──waypoint──> … ──approach──> extension
+//! without one:  extension ──waypoint──> ──waypoint──> … ──last waypoint──> extension
 //! ```
 //!
 //! In the pull toes and elbows are planted and a [`Gait`] moves the chain; head and other joints
-//! may move along. In the recovery each limb is an open chain that goes from waypoint to waypoint,
-//! joint by joint, while the body lies on the floor or on knees and forearms; it may move on too.
-//! The cycle ends where it began, one advance further on.
+//! may move along. On the way along the waypoints each limb is an open chain that goes from posture
+//! to posture, joint by joint; whatever then touches the floor may push or be dragged. A cycle
+//! without a pull is made of waypoints alone, and the posture of the last one is its extension.
 //!
-//! A turn command u makes the pull asymmetric: over the phase s the left arm is spread by
-//! k·u·(1 − 2s) more than the gait has it and the right arm by as much less, and the steering's
-//! joints (a robot's hip rolls, say) are set to their factor times u·(1 − 2s). Both elbows stay
-//! where they are, so that trunk and hips swing about them. Positive u turns to the left.
+//! A turn command u, positive to the left, acts in two places:
 //!
-//! [`CheckedCycle::plan`] holds all of it against a robot: stops, joint speeds, the closed chain.
+//! - in the pull, which it makes asymmetric: over the phase s the left arm is spread by k·u·(1 − 2s)
+//!   more than the gait has it and the right arm by as much less, and the steering's joints (a
+//!   robot's hip rolls, say) are set to their factor times u·(1 − 2s). Both elbows stay where they
+//!   are, so that trunk and hips swing about them;
+//! - at waypoints, to whose angles it adds: a joint's factor times w(u), where
+//!
+//! ```text
+//! w(u) = u + d u / (|u| + d)                                          (1)
+//! ```
+//!
+//! with the dead band d of the cycle: commands too small to overcome friction turn nothing, so that
+//! small ones are made up to twice as large and large ones are larger by d. w is odd and rises with
+//! u everywhere.
+//!
+//! [`CheckedCycle::plan`] holds all of it against a robot: stops, limits that depend on another
+//! joint, joint speeds, the closed chain.
 
 mod checked;
 mod error;
@@ -25,29 +38,51 @@ pub use error::CycleError;
 
 use std::collections::BTreeMap;
 
-use super::{Curve, Gait, PhaseDuration};
+use super::{Curve, Gait, LimitsPolicy, PhaseDuration};
+use crate::mapping::{ArmMode, MappingVariant};
 
 /// A crawl cycle. Joints carry the manufacturer's names; of a left and a right twin one is enough.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cycle {
-    /// The closed chain; its name and description are the cycle's.
-    pub pull: Gait,
-    /// How long the pull lasts, s.
-    pub pull_duration: PhaseDuration,
-    /// Joints outside the chain over the phase of the pull, rad; those not named stay at zero.
-    pub company: BTreeMap<String, Curve>,
-    /// The way back, in order.
-    pub recovery: Vec<Waypoint>,
-    /// The last stretch, to the first posture of the next pull.
-    pub approach: Approach,
-    /// How long it rests at its end, in the posture from which the next pull begins, s; a time scale
+    /// Short name, as used in file names.
+    pub name: String,
+    /// One sentence on where it comes from.
+    pub description: String,
+    /// What happens where a joint would pass its limit.
+    pub limits: LimitsPolicy,
+    /// The phase in which the closed chain carries the body, where there is one.
+    pub pull: Option<Pull>,
+    /// The way to the next extension, in order. Without a pull the last one is the extension.
+    pub waypoints: Vec<Waypoint>,
+    /// How long it rests at its end, in the posture from which the next cycle begins, s; a time scale
     /// does not stretch it.
     pub rest: f64,
     /// How it turns, where it can.
     pub steering: Option<Steering>,
 }
 
-/// A posture on the way back.
+/// The closed-chain phase of a cycle.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pull {
+    /// θ3(s), rad.
+    pub knee: Curve,
+    /// θ4(s), rad.
+    pub hip: Curve,
+    /// α(s), rad.
+    pub upper_arm: Curve,
+    /// Which chain and which offsets turn chain angles into joints.
+    pub mapping: MappingVariant,
+    /// What the forearms do.
+    pub arm: ArmMode,
+    /// How long it lasts, s.
+    pub duration: PhaseDuration,
+    /// Joints outside the chain over the phase of the pull, rad; those not named stay at zero.
+    pub company: BTreeMap<String, Curve>,
+    /// The last stretch of the cycle, from the last waypoint to the first posture of the next pull.
+    pub approach: Approach,
+}
+
+/// A posture on the way to the next extension.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Waypoint {
     /// What it is for, in a word.
@@ -56,9 +91,13 @@ pub struct Waypoint {
     pub approach: Approach,
     /// Joint angles, rad. Those not named stay where they are.
     ///
-    /// The first waypoint keeps what a turn has added to the arms, as they may still be planted;
-    /// what it has moved beside them goes back to zero there.
+    /// After a pull the first waypoint keeps what a turn has added to the arms, as they may still be
+    /// planted; what it has moved beside them goes back to zero there.
     pub joints: BTreeMap<String, f64>,
+    /// Factors of w(u), equation (1), that a turn adds to this waypoint's angles. Of two twins one
+    /// is enough: the other one gets the opposite of its mirror image, since a turn to the left is
+    /// the mirror image of one to the right.
+    pub turn: BTreeMap<String, f64>,
 }
 
 /// How a posture is reached from the one before.
@@ -85,10 +124,22 @@ pub enum Easing {
 pub struct Steering {
     /// The largest |u|, rad.
     pub limit: f64,
-    /// k: how much of u the arms are spread by.
+    /// d of equation (1), rad: what of a command friction swallows.
+    pub dead_band: f64,
+    /// k: how much of u the arms are spread by in the pull.
     pub spread: f64,
-    /// Factors of u for other joints. Here both twins are named, as a turn is not symmetric.
+    /// Factors of u for other joints in the pull. Here both twins are named.
     pub joints: BTreeMap<String, f64>,
+}
+
+impl Steering {
+    /// w(u) of equation (1), rad, of a command u, rad.
+    pub fn at_waypoints(&self, turn: f64) -> f64 {
+        if self.dead_band == 0.0 {
+            return turn;
+        }
+        turn + self.dead_band * turn / (turn.abs() + self.dead_band)
+    }
 }
 
 /// What all durations of a cycle are multiplied by.
@@ -166,9 +217,36 @@ impl Cycle {
 
     /// How long a cycle lasts at a time scale, s.
     pub fn duration(&self, scale: TimeScale) -> f64 {
-        let ways = self.recovery.iter().map(|waypoint| waypoint.approach);
-        let recovery: f64 = ways.chain([self.approach]).map(|way| way.seconds).sum();
-        (self.pull_duration.seconds() + recovery) * scale.value() + self.rest
+        let ways = self.waypoints.iter().map(|waypoint| waypoint.approach);
+        let approach = self.pull.as_ref().map(|pull| pull.approach);
+        let ways: f64 = ways.chain(approach).map(|way| way.seconds).sum();
+        (self.pull_seconds() + ways) * scale.value() + self.rest
+    }
+
+    /// How long its pull lasts as the file has it, s; 0 without one.
+    pub fn pull_seconds(&self) -> f64 {
+        let pull = self.pull.as_ref();
+        pull.map_or(0.0, |pull| pull.duration.seconds())
+    }
+
+    /// The gait of its pull, under the cycle's name, where there is one.
+    pub fn gait(&self) -> Option<Gait> {
+        let pull = self.pull.as_ref()?;
+        Some(Gait {
+            name: self.name.clone(),
+            description: self.description.clone(),
+            knee: pull.knee.clone(),
+            hip: pull.hip.clone(),
+            upper_arm: pull.upper_arm.clone(),
+            mapping: pull.mapping,
+            arm: pull.arm,
+            limits: self.limits,
+        })
+    }
+
+    /// Whether a turn changes anything of it at some waypoint.
+    pub fn turns_at_waypoints(&self) -> bool {
+        self.waypoints.iter().any(|it| !it.turn.is_empty())
     }
 }
 
@@ -187,6 +265,27 @@ mod tests {
                 .map(|x| (easing.share(x + 1e-3) - easing.share(x)) / 1e-3)
                 .fold(0.0, f64::max);
             assert!((steepest - easing.peak_speed()).abs() < 1e-5, "{easing:?}");
+        }
+    }
+
+    #[test]
+    fn a_turn_at_waypoints_is_odd_and_rises_with_the_command() {
+        let steering = |dead_band: f64| Steering {
+            limit: 0.2,
+            dead_band,
+            spread: 0.0,
+            joints: BTreeMap::new(),
+        };
+        for dead_band in [0.0, 0.02, 0.1] {
+            let steering = steering(dead_band);
+            let at = |k: i32| steering.at_waypoints(f64::from(k) * 0.01);
+            assert!(at(0).abs() < f64::EPSILON);
+            for k in 1..=20 {
+                assert!((at(k) + at(-k)).abs() < 1e-15);
+                assert!(at(k) > at(k - 1), "{k}");
+                let more = at(k) - f64::from(k) * 0.01;
+                assert!((0.0..=dead_band).contains(&more), "{more}");
+            }
         }
     }
 

@@ -253,6 +253,27 @@ impl CheckedTrajectory {
                 joints[id] = stop.clamp(angle);
                 note(&mut clamps, id, excess, s);
             }
+            for limit in &robot.coupled_limits {
+                let (range, angle) = (limit.range(joints[limit.by]), joints[limit.joint]);
+                let excess = range.excess(angle);
+                if excess == 0.0 {
+                    continue;
+                }
+                if gait.limits == LimitsPolicy::Refuse {
+                    return Err(TrajectoryError::Limit {
+                        gait: gait.name.clone(),
+                        joint: robot.joints[limit.joint.0].name.clone(),
+                        angle,
+                        lower: range.lower,
+                        upper: range.upper,
+                        sample,
+                        s,
+                        excess: excess.abs(),
+                    });
+                }
+                joints[limit.joint] = range.clamp(angle);
+                note(&mut clamps, limit.joint, excess, s);
+            }
             samples.push(Sample {
                 s,
                 chain,

@@ -124,6 +124,7 @@ pub(crate) fn two_armed() -> Robot {
         bodies: builder.bodies,
         joints: builder.joints,
         shared_motors: Vec::new(),
+        coupled_limits: Vec::new(),
         shapes: vec![Shape {
             name: "trunk".to_owned(),
             body: BodyId(0),

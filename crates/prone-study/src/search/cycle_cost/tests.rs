@@ -190,7 +190,7 @@ fn a_shipped_cycle_breaks_nothing_in_its_plan_and_a_longer_one_its_duration() {
     let rules = usual_rules(CycleObjective::Advance, 0.2, &base, nao().robot());
     assert_eq!(in_plan(&base, rules, &base), (0.0, None));
     let mut longer = base.clone();
-    longer.approach.seconds += 0.1 * rules.seconds;
+    longer.pull.as_mut().unwrap().approach.seconds += 0.1 * rules.seconds;
     let (broken, refusal) = in_plan(&base, rules, &longer);
     near(broken, 0.1);
     assert_eq!(refusal, None);
@@ -200,7 +200,7 @@ fn a_shipped_cycle_breaks_nothing_in_its_plan_and_a_longer_one_its_duration() {
 fn crossed_legs_are_as_deep_in_one_another_as_the_scan_says() {
     let base = cycle("low-175");
     let mut crossed = base.clone();
-    let roll = &mut crossed.recovery[0].joints;
+    let roll = &mut crossed.waypoints[0].joints;
     roll.insert("LHipRoll".to_owned(), -0.3);
     let (broken, refusal) = in_plan(&base, CycleRules::FREE, &crossed);
     // A leg is some centimetres thick.
@@ -212,14 +212,14 @@ fn crossed_legs_are_as_deep_in_one_another_as_the_scan_says() {
 fn a_cycle_that_cannot_be_planned_says_why_and_by_how_much() {
     let base = cycle("low-175");
     let mut hasty = base.clone();
-    hasty.recovery[0].approach.seconds = 0.1;
+    hasty.waypoints[0].approach.seconds = 0.1;
     let (broken, refusal) = in_plan(&base, CycleRules::FREE, &hasty);
     let Some(Refusal::Plan(CycleError::Speed { speed, limit, .. })) = refusal else {
         panic!("{refusal:?}");
     };
     near(broken, UNTRIED + speed / limit - 1.0);
     let mut unknown = base.clone();
-    unknown.recovery[0].joints.insert("Tail".to_owned(), 0.1);
+    unknown.waypoints[0].joints.insert("Tail".to_owned(), 0.1);
     let (broken, refusal) = in_plan(&base, CycleRules::FREE, &unknown);
     near(broken, 2.0 * UNTRIED);
     let reason = refusal.unwrap().to_string();

@@ -27,14 +27,14 @@ fn a_cycle_that_ships_with_steering_can_be_steered() {
             continue;
         }
         let steered = check_steering(&settings, &cycle);
-        if cycle.pull.name == "least-heat" {
+        if cycle.name == "least-heat" {
             // Found with servos that no robot has: with motors it turns by 4° where 6° are asked.
             assert!(
                 matches!(steered, Err(NotSteered::ThrownOff { .. })),
                 "{steered:?}"
             );
         } else {
-            assert_eq!(steered, Ok(()), "{}", cycle.pull.name);
+            assert_eq!(steered, Ok(()), "{}", cycle.name);
         }
     }
     // What would steer another one does not steer this.
@@ -108,7 +108,7 @@ fn where_no_cycle_can_be_crawled_each_says_why() {
     let robot = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
     let settings = for_advance(&robot).unwrap();
     let mut hasty = shipped::cycle("low-175").unwrap().unwrap();
-    hasty.recovery[0].approach.seconds = 0.1;
+    hasty.waypoints[0].approach.seconds = 0.1;
     let cycles = [hasty];
     let refused = base(&robot, &settings[0], &cycles, 0.2).unwrap_err();
     let message = refused.to_string();

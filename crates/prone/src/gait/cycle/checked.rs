@@ -1,8 +1,10 @@
 //! A cycle held against a robot: the only thing that a crawl commands.
 
+use std::sync::Arc;
+
 use super::super::{CheckedTrajectory, Clamp};
 use super::{Approach, CycleError};
-use crate::robot::{JointAngles, Range};
+use crate::robot::{CoupledLimit, JointAngles, Range};
 
 /// A cycle whose every posture lies within the stops it was planned for and whose every joint
 /// speed lies within the robot's limits.
@@ -10,8 +12,12 @@ use crate::robot::{JointAngles, Range};
 pub struct CheckedCycle {
     pub(super) name: String,
     pub(super) turn: f64,
-    pub(super) pull: CheckedTrajectory,
-    /// The recovery, waypoint by waypoint; the last is the extension.
+    pub(super) pull: Option<CheckedTrajectory>,
+    /// The posture in which it begins.
+    pub(super) extension: JointAngles,
+    /// Turn of the root about +y there, rad.
+    pub(super) root_pitch: f64,
+    /// The way to the extension, waypoint by waypoint.
     pub(super) stretches: Vec<Stretch>,
     /// By how much the turn has moved each joint at the end of the pull, rad; 0 for those that the
     /// recovery puts back at once.
@@ -20,6 +26,7 @@ pub struct CheckedCycle {
     pub(super) clamps: Vec<Clamp>,
     pub(super) fastest: FastestJoint,
     pub(super) speed_limits: Vec<(String, f64)>,
+    pub(super) coupled: Arc<[CoupledLimit]>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -41,11 +48,12 @@ pub struct FastestJoint {
     pub limit: f64,
 }
 
-/// The recovery from a given posture, over time.
+/// The way along the waypoints from a given posture, over time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecoveryPath {
     from: JointAngles,
     legs: Vec<(Approach, JointAngles)>,
+    coupled: Arc<[CoupledLimit]>,
 }
 
 impl CheckedCycle {
@@ -59,24 +67,42 @@ impl CheckedCycle {
         self.turn
     }
 
-    /// The posture in which the pull begins.
-    pub fn extension(&self) -> &JointAngles {
-        &self.pull.first().joints
+    /// The posture in which it begins.
+    pub const fn extension(&self) -> &JointAngles {
+        &self.extension
     }
 
-    /// The posture in which the pull ends.
+    /// Turn of the root about +y in the extension, on level ground, rad: of the closed chain; of a
+    /// cycle without a pull that of a trunk that lies flat on the belly.
+    pub const fn root_pitch(&self) -> f64 {
+        self.root_pitch
+    }
+
+    /// The posture from which it goes along its waypoints: that of the end of its pull, or the
+    /// extension.
     pub fn compression(&self) -> &JointAngles {
-        &self.pull.last().joints
+        let pull = self.pull.as_ref();
+        pull.map_or(&self.extension, |pull| &pull.last().joints)
     }
 
-    /// The closed-chain phase.
-    pub const fn pull(&self) -> &CheckedTrajectory {
-        &self.pull
+    /// The closed-chain phase, where there is one.
+    pub const fn pull(&self) -> Option<&CheckedTrajectory> {
+        self.pull.as_ref()
     }
 
-    /// Joint angles at a time since the pull began, s.
+    /// How long the pull lasts, s; 0 without one.
+    pub fn pull_seconds(&self) -> f64 {
+        let pull = self.pull.as_ref();
+        pull.map_or(0.0, |pull| pull.duration().seconds())
+    }
+
+    /// Joint angles at a time since the pull began, s, rad.
     pub fn pull_at(&self, seconds: f64) -> JointAngles {
-        self.pull.at(seconds / self.pull.duration().seconds())
+        let pull = self.pull.as_ref();
+        pull.map_or_else(
+            || self.extension.clone(),
+            |pull| pull.at(seconds / pull.duration().seconds()),
+        )
     }
 
     /// How long the recovery lasts, s.
@@ -118,12 +144,13 @@ impl CheckedCycle {
 
     pub(super) fn path(&self, previous: &Self) -> RecoveryPath {
         let from = previous.compression().clone();
+        let planted = previous.pull.is_some() && self.stretches.len() > 1;
         let mut posture = from.clone();
         let legs = self.stretches.iter().enumerate().map(|(index, stretch)| {
             posture = posture.map(|joint, now| match stretch.targets[joint.0] {
                 None => now,
                 // At the first waypoint the arms are still planted where the last turn has put them.
-                Some(to) if index == 0 && self.stretches.len() > 1 => {
+                Some(to) if index == 0 && planted => {
                     self.stops[joint.0].clamp(to + previous.aside[joint.0])
                 }
                 Some(to) => to,
@@ -131,7 +158,11 @@ impl CheckedCycle {
             (stretch.approach, posture.clone())
         });
         let legs = legs.collect();
-        RecoveryPath { from, legs }
+        RecoveryPath {
+            from,
+            legs,
+            coupled: Arc::clone(&self.coupled),
+        }
     }
 
     /// What was clamped, by joint; a waypoint counts as a sample at phase 1.
@@ -145,8 +176,11 @@ impl CheckedCycle {
     }
 
     pub(super) fn pull_speed(&self) -> Result<FastestJoint, CycleError> {
-        let samples = self.pull.samples();
-        let step = self.pull.duration().seconds() / (samples.len() - 1) as f64;
+        let Some(pull) = &self.pull else {
+            return Ok(self.fastest.clone());
+        };
+        let samples = pull.samples();
+        let step = pull.duration().seconds() / (samples.len() - 1) as f64;
         let mut fastest = vec![0.0_f64; self.speed_limits.len()];
         for pair in samples.windows(2) {
             let ways = pair[0].joints.pairs(&pair[1].joints);
@@ -215,8 +249,17 @@ impl RecoveryPath {
         })
     }
 
-    /// Joint angles at a time since the recovery began, s.
+    /// Joint angles at a time since the recovery began, s, rad.
     pub fn at(&self, seconds: f64) -> JointAngles {
+        let mut posture = self.straight(seconds);
+        for limit in self.coupled.iter() {
+            posture[limit.joint] = limit.range(posture[limit.by]).clamp(posture[limit.joint]);
+        }
+        posture
+    }
+
+    /// The same without limits that depend on another joint.
+    pub(super) fn straight(&self, seconds: f64) -> JointAngles {
         let mut begin = 0.0;
         let mut from = &self.from;
         for (approach, to) in &self.legs {

@@ -80,6 +80,59 @@ pub enum CycleError {
         /// How far outside, rad.
         excess: f64,
     },
+    /// A joint passes the limit that another joint's angle sets it, and the policy is to refuse.
+    #[error(
+        "cycle {cycle}, {place}: {joint} {angle:.4} rad is outside {lower:.4}..{upper:.4}, its limits while {by} is at {at:.4} rad; \
+         `limits = \"clamp\"` in the file would stop it there"
+    )]
+    Coupled {
+        /// The cycle's name.
+        cycle: String,
+        /// The waypoint that it is on its way to.
+        place: String,
+        /// The joint's name.
+        joint: String,
+        /// The joint that sets the limits.
+        by: String,
+        /// Where that one is, rad.
+        at: f64,
+        /// What is asked for, rad.
+        angle: f64,
+        /// The lower limit, rad.
+        lower: f64,
+        /// The upper limit, rad.
+        upper: f64,
+    },
+    /// The stops are those of another robot.
+    #[error("cycle {cycle}: {stops} stops are given, robot {robot} has {joints} joints")]
+    Stops {
+        /// The cycle's name.
+        cycle: String,
+        /// How many stops there are.
+        stops: usize,
+        /// The robot's name.
+        robot: String,
+        /// How many joints it has.
+        joints: usize,
+    },
+    /// A cycle without a pull that goes nowhere.
+    #[error("cycle {cycle}: without a pull it needs two waypoints or more, not {waypoints}")]
+    FewWaypoints {
+        /// The cycle's name.
+        cycle: String,
+        /// How many it has.
+        waypoints: usize,
+    },
+    /// A turn adds to an angle that a waypoint does not give.
+    #[error("cycle {cycle}, {place}: a turn moves {joint}, to which the waypoint gives no angle")]
+    NothingToTurn {
+        /// The cycle's name.
+        cycle: String,
+        /// The waypoint.
+        place: String,
+        /// The joint's name.
+        joint: String,
+    },
     /// A joint would have to be faster than it is.
     #[error(
         "cycle {cycle}, {place}: {joint} would need {speed:.2} rad/s, above its limit of {limit:.2} rad/s"
@@ -119,11 +172,13 @@ impl CycleError {
         match self {
             Self::Pull(_) | Self::Duration { .. } => "pull",
             Self::Turn { .. } => "steering",
-            Self::OtherRobot { .. } => "recovery",
+            Self::OtherRobot { .. } | Self::Stops { .. } | Self::FewWaypoints { .. } => "recovery",
             Self::UnknownJoint { place, .. }
             | Self::ChainJoint { place, .. }
             | Self::Seconds { place, .. }
             | Self::Limit { place, .. }
+            | Self::Coupled { place, .. }
+            | Self::NothingToTurn { place, .. }
             | Self::Speed { place, .. } => place.strip_prefix("waypoint ").unwrap_or(place),
         }
     }

@@ -4,12 +4,21 @@ use std::collections::BTreeMap;
 
 use super::super::trajectory::{Company, note};
 use super::super::{CheckedTrajectory, Clamp, LimitsPolicy, PhaseDuration};
-use super::checked::Stretch;
-use super::{Approach, CheckedCycle, Cycle, CycleError, Easing, FastestJoint, TimeScale};
-use crate::robot::{JointId, Mirror, Range, Robot, SideLayout};
+use super::checked::{RecoveryPath, Stretch};
+use super::{Approach, CheckedCycle, Cycle, CycleError, Easing, FastestJoint, TimeScale, Waypoint};
+use crate::robot::{JointAngles, JointId, Mirror, Range, Robot, SideLayout};
 
 /// Time between two samples of a planned pull, s: commands in between are interpolated.
 const SAMPLE_STEP: f64 = 0.005;
+
+/// A cycle without a pull that has fewer waypoints goes nowhere.
+const FEWEST_WITHOUT_A_PULL: usize = 2;
+
+/// Time between two postures that are held against limits which depend on another joint, s.
+const COUPLED_STEP: f64 = 0.01;
+
+/// Turn of the root about +y with which a trunk lies flat on its belly, rad: its top points forward.
+const FLAT_ON_THE_BELLY: f64 = std::f64::consts::FRAC_PI_2;
 
 impl CheckedCycle {
     /// Plans a cycle with a turn command, rad, at a time scale, and holds it against `stops` (one
@@ -30,28 +39,26 @@ impl CheckedCycle {
             cycle,
             mirror: Mirror::of(robot),
         };
+        planner.check_stops()?;
         planner.check_turn(turn)?;
-        let seconds = cycle.pull_duration.seconds() * scale.value();
-        let duration = PhaseDuration::new(seconds).map_err(|source| CycleError::Duration {
-            cycle: cycle.pull.name.clone(),
-            source,
-        })?;
-        let pull = planner.pull(duration, turn)?;
-        let aside = planner.aside(&pull, duration, turn)?;
-        let mut clamps = pull.clamps().to_vec();
-        let mut stretches = planner.waypoints(scale, &mut clamps)?;
-        stretches.push(Stretch {
-            name: "extension".to_owned(),
-            approach: planner.scaled("extension", cycle.approach, scale)?,
-            targets: pull
-                .first()
-                .joints
-                .as_slice()
-                .iter()
-                .copied()
-                .map(Some)
-                .collect(),
-        });
+        let pull = planner.pull(turn, scale)?;
+        let mut clamps = match &pull {
+            Some(pull) => pull.clamps().to_vec(),
+            None => Vec::new(),
+        };
+        let mut stretches = planner.waypoints(turn, scale, &mut clamps)?;
+        let (extension, root_pitch) = match (&pull, &cycle.pull) {
+            (Some(planned), Some(pull)) => {
+                let first = planned.first();
+                stretches.push(Stretch {
+                    name: "extension".to_owned(),
+                    approach: planner.scaled("extension", pull.approach, scale)?,
+                    targets: first.joints.as_slice().iter().copied().map(Some).collect(),
+                });
+                (first.joints.clone(), first.root_pitch)
+            }
+            _ => (planner.last_posture(&stretches)?, FLAT_ON_THE_BELLY),
+        };
         if cycle.rest > 0.0 {
             stretches.push(Stretch {
                 name: "rest".to_owned(),
@@ -62,15 +69,17 @@ impl CheckedCycle {
                 targets: vec![None; robot.joints.len()],
             });
         }
-        clamps.sort_by_key(|clamp| clamp.joint);
+        let aside = planner.aside(pull.as_ref(), turn, scale)?;
         let mut checked = Self {
-            name: cycle.pull.name.clone(),
+            name: cycle.name.clone(),
             turn,
             pull,
+            extension,
+            root_pitch,
             stretches,
             aside,
             stops: stops.to_vec(),
-            clamps,
+            clamps: Vec::new(),
             fastest: FastestJoint {
                 joint: String::new(),
                 speed: 0.0,
@@ -81,9 +90,14 @@ impl CheckedCycle {
                 .iter()
                 .map(|joint| (joint.name.clone(), joint.speed_limit))
                 .collect(),
+            coupled: robot.coupled_limits.as_slice().into(),
         };
         checked.fastest = checked.pull_speed()?;
-        checked.fastest = checked.recovery_speed(&checked.path(&checked))?;
+        let path = checked.path(&checked);
+        checked.fastest = checked.recovery_speed(&path)?;
+        planner.check_coupled(&checked, &path, &mut clamps)?;
+        clamps.sort_by_key(|clamp| clamp.joint);
+        checked.clamps = clamps;
         Ok(checked)
     }
 }
@@ -96,6 +110,20 @@ struct Planner<'a> {
 }
 
 impl Planner<'_> {
+    /// Of a pull the trajectory says the same.
+    fn check_stops(&self) -> Result<(), CycleError> {
+        let (stops, joints) = (self.stops.len(), self.robot.joints.len());
+        if stops == joints || self.cycle.pull.is_some() {
+            return Ok(());
+        }
+        Err(CycleError::Stops {
+            cycle: self.cycle.name.clone(),
+            stops,
+            robot: self.robot.name.clone(),
+            joints,
+        })
+    }
+
     fn check_turn(&self, turn: f64) -> Result<(), CycleError> {
         let steering = self.cycle.steering.as_ref();
         let limit = steering.map_or(0.0, |steering| steering.limit);
@@ -104,14 +132,22 @@ impl Planner<'_> {
             return Ok(());
         }
         Err(CycleError::Turn {
-            cycle: self.cycle.pull.name.clone(),
+            cycle: self.cycle.name.clone(),
             turn_deg: turn.to_degrees(),
             limit_deg: limit.to_degrees(),
         })
     }
 
-    fn pull(&self, duration: PhaseDuration, turn: f64) -> Result<CheckedTrajectory, CycleError> {
-        let company = self.with_twins("pull", &self.cycle.company)?;
+    fn pull(&self, turn: f64, scale: TimeScale) -> Result<Option<CheckedTrajectory>, CycleError> {
+        let (Some(pull), Some(gait)) = (&self.cycle.pull, self.cycle.gait()) else {
+            return Ok(None);
+        };
+        let seconds = pull.duration.seconds() * scale.value();
+        let duration = PhaseDuration::new(seconds).map_err(|source| CycleError::Duration {
+            cycle: self.cycle.name.clone(),
+            source,
+        })?;
+        let company = self.with_twins("pull", &pull.company)?;
         for &(joint, ..) in &company {
             self.check_outside_chain("pull", joint)?;
         }
@@ -129,11 +165,11 @@ impl Planner<'_> {
                 joints: along.chain(swing).collect(),
             }
         };
-        let gait = &self.cycle.pull;
         let intervals = intervals(duration);
-        Ok(CheckedTrajectory::plan_in_company(
-            self.robot, self.stops, gait, duration, intervals, at,
-        )?)
+        let planned = CheckedTrajectory::plan_in_company(
+            self.robot, self.stops, &gait, duration, intervals, at,
+        )?;
+        Ok(Some(planned))
     }
 
     /// The joints that the steering moves, with their factors of the turn.
@@ -153,7 +189,7 @@ impl Planner<'_> {
             return Ok(());
         }
         Err(CycleError::ChainJoint {
-            cycle: self.cycle.pull.name.clone(),
+            cycle: self.cycle.name.clone(),
             place: place.to_owned(),
             joint: self.robot.joints[joint.0].name.clone(),
         })
@@ -163,14 +199,17 @@ impl Planner<'_> {
     /// steering names, which go back with the first waypoint.
     fn aside(
         &self,
-        pull: &CheckedTrajectory,
-        duration: PhaseDuration,
+        pull: Option<&CheckedTrajectory>,
         turn: f64,
+        scale: TimeScale,
     ) -> Result<Vec<f64>, CycleError> {
-        if turn == 0.0 {
-            return Ok(vec![0.0; self.robot.joints.len()]);
-        }
-        let straight = self.pull(duration, 0.0)?;
+        let none = vec![0.0; self.robot.joints.len()];
+        let Some(pull) = pull.filter(|_| turn != 0.0) else {
+            return Ok(none);
+        };
+        let Some(straight) = self.pull(0.0, scale)? else {
+            return Ok(none);
+        };
         let pairs = pull.last().joints.pairs(&straight.last().joints);
         let mut aside: Vec<f64> = pairs.map(|(turned, straight)| turned - straight).collect();
         for (joint, _) in self.swing()? {
@@ -181,21 +220,37 @@ impl Planner<'_> {
 
     fn waypoints(
         &self,
+        turn: f64,
         scale: TimeScale,
         clamps: &mut Vec<Clamp>,
     ) -> Result<Vec<Stretch>, CycleError> {
-        let mut stretches = Vec::with_capacity(self.cycle.recovery.len() + 1);
-        for (index, waypoint) in self.cycle.recovery.iter().enumerate() {
+        if self.cycle.pull.is_none() && self.cycle.waypoints.len() < FEWEST_WITHOUT_A_PULL {
+            return Err(CycleError::FewWaypoints {
+                cycle: self.cycle.name.clone(),
+                waypoints: self.cycle.waypoints.len(),
+            });
+        }
+        let mut stretches = Vec::with_capacity(self.cycle.waypoints.len() + 2);
+        for (index, waypoint) in self.cycle.waypoints.iter().enumerate() {
             let place = format!("waypoint {}", waypoint.name);
             let mut targets = vec![None; self.robot.joints.len()];
-            if index == 0 {
+            if index == 0 && self.cycle.pull.is_some() {
                 // A turn's joints go back.
                 for (joint, _) in self.swing()? {
                     targets[joint.0] = Some(0.0);
                 }
             }
+            let added = self.added(&place, waypoint, turn)?;
             for (joint, sign, &angle) in self.with_twins(&place, &waypoint.joints)? {
-                targets[joint.0] = Some(self.within_stop(&place, joint, sign * angle, clamps)?);
+                let angle = sign * angle + added.get(&joint).copied().unwrap_or_default();
+                targets[joint.0] = Some(self.within_stop(&place, joint, angle, clamps)?);
+            }
+            if let Some((joint, _)) = added.iter().find(|(joint, _)| targets[joint.0].is_none()) {
+                return Err(CycleError::NothingToTurn {
+                    cycle: self.cycle.name.clone(),
+                    place,
+                    joint: self.robot.joints[joint.0].name.clone(),
+                });
             }
             stretches.push(Stretch {
                 name: waypoint.name.clone(),
@@ -204,6 +259,102 @@ impl Planner<'_> {
             });
         }
         Ok(stretches)
+    }
+
+    /// What a turn adds to the joints of a waypoint, rad.
+    fn added(
+        &self,
+        place: &str,
+        waypoint: &Waypoint,
+        turn: f64,
+    ) -> Result<BTreeMap<JointId, f64>, CycleError> {
+        let steering = self.cycle.steering.as_ref();
+        let w = steering.map_or(0.0, |steering| steering.at_waypoints(turn));
+        let mut added = BTreeMap::new();
+        for (name, factor) in &waypoint.turn {
+            let joint = self.joint(place, name)?;
+            added.insert(joint, factor * w);
+            let twin = self.mirror.twin(joint);
+            let twin = twin.filter(|twin| {
+                let name = &self.robot.joints[twin.joint.0].name;
+                twin.joint != joint && !waypoint.turn.contains_key(name)
+            });
+            if let Some(twin) = twin {
+                added.insert(twin.joint, -twin.sign * factor * w);
+            }
+        }
+        Ok(added)
+    }
+
+    /// The posture at the end of the waypoints, which a cycle without a pull begins with: joints
+    /// that none of them names are at zero, or at the stop that is next to it.
+    fn last_posture(&self, stretches: &[Stretch]) -> Result<JointAngles, CycleError> {
+        let mut posture = JointAngles::zero(self.robot).within(self.stops);
+        for stretch in stretches {
+            posture = posture.map(|joint, now| stretch.targets[joint.0].unwrap_or(now));
+        }
+        for limit in &self.robot.coupled_limits {
+            let range = limit.range(posture[limit.by]);
+            posture[limit.joint] = range.clamp(posture[limit.joint]);
+        }
+        Ok(posture)
+    }
+
+    /// Holds a planned cycle against limits that depend on another joint: what lies beyond is an
+    /// error or noted, by the cycle's policy. Postures of the way are kept within as they are made
+    /// ([`RecoveryPath::at`]).
+    fn check_coupled(
+        &self,
+        checked: &CheckedCycle,
+        path: &RecoveryPath,
+        clamps: &mut Vec<Clamp>,
+    ) -> Result<(), CycleError> {
+        if self.robot.coupled_limits.is_empty() {
+            return Ok(());
+        }
+        let seconds = checked.recovery_seconds();
+        let mut begin = 0.0;
+        for (name, end) in checked.recovery_ends() {
+            let mut time: f64 = begin;
+            while time <= end {
+                let place = format!("waypoint {name}");
+                let posture = path.straight(time);
+                self.within_coupled(&place, &posture, time / seconds, clamps)?;
+                time += COUPLED_STEP;
+            }
+            begin = time;
+        }
+        Ok(())
+    }
+
+    fn within_coupled(
+        &self,
+        place: &str,
+        posture: &JointAngles,
+        share: f64,
+        clamps: &mut Vec<Clamp>,
+    ) -> Result<(), CycleError> {
+        for limit in &self.robot.coupled_limits {
+            let (range, angle) = (limit.range(posture[limit.by]), posture[limit.joint]);
+            let excess = range.excess(angle);
+            if excess == 0.0 {
+                continue;
+            }
+            if self.cycle.limits == LimitsPolicy::Refuse || excess.is_nan() {
+                return Err(CycleError::Coupled {
+                    cycle: self.cycle.name.clone(),
+                    place: place.to_owned(),
+                    joint: self.robot.joints[limit.joint.0].name.clone(),
+                    by: self.robot.joints[limit.by.0].name.clone(),
+                    at: posture[limit.by],
+                    angle,
+                    lower: range.lower,
+                    upper: range.upper,
+                });
+            }
+            note(clamps, limit.joint, excess, share);
+        }
+        Ok(())
     }
 
     fn within_stop(
@@ -218,9 +369,9 @@ impl Planner<'_> {
             return Ok(angle);
         }
         let excess = stop.excess(angle);
-        if self.cycle.pull.limits == LimitsPolicy::Refuse || excess.is_nan() {
+        if self.cycle.limits == LimitsPolicy::Refuse || excess.is_nan() {
             return Err(CycleError::Limit {
-                cycle: self.cycle.pull.name.clone(),
+                cycle: self.cycle.name.clone(),
                 place: place.to_owned(),
                 joint: self.robot.joints[id.0].name.clone(),
                 angle,
@@ -242,7 +393,7 @@ impl Planner<'_> {
         let (least, most) = Cycle::STRETCH_SECONDS;
         if !(least..=most).contains(&approach.seconds) {
             return Err(CycleError::Seconds {
-                cycle: self.cycle.pull.name.clone(),
+                cycle: self.cycle.name.clone(),
                 place: place.to_owned(),
                 seconds: approach.seconds,
             });
@@ -274,7 +425,7 @@ impl Planner<'_> {
 
     fn joint(&self, place: &str, name: &str) -> Result<JointId, CycleError> {
         let unknown = || CycleError::UnknownJoint {
-            cycle: self.cycle.pull.name.clone(),
+            cycle: self.cycle.name.clone(),
             place: place.to_owned(),
             robot: self.robot.name.clone(),
             joint: name.to_owned(),
