@@ -7,13 +7,13 @@ use anyhow::anyhow;
 use prone::motor::HEAD_CARRIES;
 use prone_files::robot_folder::RobotFiles;
 use prone_record::experiment::{
-    CycleRulesChoice, CycleSearchExperiment, Experiment, GaitText, NamedGait, RobotText, Runs,
-    Under,
+    CycleRulesChoice, CycleSearchExperiment, Experiment, GaitText, LeastDuty, NamedGait, RobotText,
+    Runs, Under,
 };
 use prone_record::frontier::{CycleObjective, Frontier, SettingKind};
 
 use crate::Failure;
-use crate::args::optimize::{OptimizeArgs, SolverName};
+use crate::args::optimize::{DutyName, OptimizeArgs, SolverName};
 use crate::args::passage::{AgainstName, FrontierArgs};
 use crate::args::pull_terms::ObjectiveName;
 use crate::gait::find_cycle;
@@ -31,6 +31,8 @@ pub(crate) fn frontier(args: &FrontierArgs) -> Result<Plan, Failure> {
             AgainstName::Heat => CycleObjective::Heat,
         },
         steerable: args.steerable,
+        ideal: args.ideal,
+        reach: args.reach,
         under: Under::Ceilings {
             ceilings_mm: args.ceilings_mm.clone(),
             margin_mm: args.margin_mm,
@@ -56,12 +58,13 @@ pub(crate) fn experiment(args: &OptimizeArgs) -> Result<CycleSearchExperiment, F
     refuse_options_of_pulls(args)?;
     let objective = match args.terms.objective {
         ObjectiveName::Heat => CycleObjective::Heat,
+        ObjectiveName::HeatRate => CycleObjective::HeatRate,
         ObjectiveName::Advance => CycleObjective::Advance,
         ObjectiveName::Speed => CycleObjective::Speed,
         ObjectiveName::Peak => CycleObjective::Peak,
         ObjectiveName::Published | ObjectiveName::Torque => {
             return Err(Failure::Input(anyhow!(
-                "--source cycle searches --objective heat, peak, advance or speed"
+                "--source cycle searches --objective heat, heat-rate, peak, advance or speed"
             )));
         }
     };
@@ -70,6 +73,8 @@ pub(crate) fn experiment(args: &OptimizeArgs) -> Result<CycleSearchExperiment, F
     Ok(CycleSearchExperiment {
         objective,
         steerable: args.steerable,
+        ideal: args.ideal,
+        reach: args.reach.unwrap_or(1.0),
         under: Under::One {
             rules: CycleRulesChoice {
                 ceiling_mm: args.ceiling_mm,
@@ -78,6 +83,10 @@ pub(crate) fn experiment(args: &OptimizeArgs) -> Result<CycleSearchExperiment, F
                 body_share_percent: args.body_share_percent,
                 most_heat: args.most_heat,
                 most_head_n: Some(args.most_head_n.unwrap_or(HEAD_CARRIES)),
+                duty: args.duty.map(|duty| match duty {
+                    DutyName::Continuous => LeastDuty::Continuous,
+                    DutyName::Limited => LeastDuty::Limited,
+                }),
             },
             worst_over: worst_over.map(|name| named(&files, name)).transpose()?,
             name: args.name.clone(),
@@ -105,6 +114,8 @@ fn asked(files: &RobotFiles, from: &[String]) -> Result<CycleSearchExperiment, F
         robot: RobotText::from_files(files),
         objective: CycleObjective::Advance,
         steerable: false,
+        ideal: false,
+        reach: 1.0,
         under: Under::Ceilings {
             ceilings_mm: Vec::new(),
             margin_mm: 0.0,

@@ -22,7 +22,7 @@ pub use crawl::{
 pub use limit::Limit;
 pub use passage::{PassageCycle, PassageExperiment, PassageSearch};
 pub use search::{
-    CycleRulesChoice, CycleSearchExperiment, Ends, GaitForm, NamedGait, PullSearchExperiment, Runs,
+    CycleRulesChoice, CycleSearchExperiment, Ends, GaitForm, LeastDuty, NamedGait, PullSearchExperiment, Runs,
     Under, check_heights,
 };
 pub use source::{ChangedText, GaitText, RobotText, SceneText, TextError, TextFile};

@@ -20,6 +20,9 @@ pub enum CycleObjective {
     Advance,
     /// Minus the speed, m/s.
     Speed,
+    /// ∫ Σ (τ / nominal torque)² dt per second.
+    #[serde(rename = "heat-rate")]
+    HeatRate,
     /// Largest torque that the position error of a shoulder asks for before any limit, with the
     /// robot's own stiffness, N·m.
     Peak,
@@ -30,6 +33,7 @@ impl CycleObjective {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Heat => "heat",
+            Self::HeatRate => "heat-rate",
             Self::Advance => "advance",
             Self::Speed => "speed",
             Self::Peak => "peak",

@@ -16,7 +16,7 @@ use prone::statics::GRAVITY;
 use crate::engine_log;
 use crate::engine_numbers::robot_body;
 use crate::load::LoadedRobot;
-use prone::regime::{self, Regime, Stops};
+use prone::regime::{self, Regime, Servo, Stops};
 use scenery::Scenery;
 
 pub use drives::{TooStiff, WorldDrive, WorldServo};
@@ -155,6 +155,15 @@ impl World {
     /// The contact regime.
     pub const fn regime(&self) -> &Regime {
         &self.regime
+    }
+
+    /// Efficiency of the gears: what the motors of the regime suppose, or the robot's.
+    pub fn gear_efficiency(&self) -> f64 {
+        let control = &self.robot.control;
+        match self.regime.servo {
+            Servo::DcMotor(motors) => motors.gear_efficiency(control),
+            Servo::Velocity(_) => control.gear_efficiency,
+        }
     }
 
     /// What drives the robot's joints, in the order of [`Robot::drives`].

@@ -371,6 +371,8 @@ fn a_search_of_cycles_that_was_sent() {
         robot: robot(),
         objective: CycleObjective::Advance,
         steerable: false,
+        ideal: false,
+        reach: 1.0,
         under: Under::One {
             rules: CycleRulesChoice {
                 ceiling_mm: Some(178.0),

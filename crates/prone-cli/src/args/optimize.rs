@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
-use prone_record::experiment::{GaitForm, PullSearchExperiment};
+use prone_record::experiment::{CycleSearchExperiment, GaitForm, PullSearchExperiment};
 
 use super::named::GaitArg;
 use super::pull_terms::PullTermsArgs;
@@ -87,6 +87,16 @@ pub(crate) struct OptimizeArgs {
     /// cycle: only cycles that can be steered, as in `prone crawl frontier --steerable`
     #[arg(long)]
     pub(crate) steerable: bool,
+    /// cycle: leave out the corners, so that what is found is for good ground only
+    #[arg(long)]
+    pub(crate) ideal: bool,
+    /// cycle: size of the box about the cycle of --from, as a share of the largest: about a good cycle
+    /// a small one finds more [default: 1]
+    #[arg(long, value_name = "SHARE", value_parser = reach, allow_negative_numbers = true)]
+    pub(crate) reach: Option<f64>,
+    /// cycle: what the motors of a robot have to be able to do [default: anything]
+    #[arg(long, value_enum)]
+    pub(crate) duty: Option<DutyName>,
     /// cycle: least advance per cycle, mm [default: that of robot.toml for heat and peak (NAO 120), else 10]
     #[arg(long, value_name = "MM", value_parser = super::passage::height, allow_negative_numbers = true)]
     pub(crate) least_advance_mm: Option<f64>,
@@ -130,6 +140,15 @@ pub(crate) enum EndsName {
     Free,
 }
 
+/// For how long motors have to be able to do it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum DutyName {
+    /// As long as the battery lasts
+    Continuous,
+    /// For minutes
+    Limited,
+}
+
 /// A solver's name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum SolverName {
@@ -167,6 +186,11 @@ fn positive(text: &str) -> Result<f64, String> {
 
 fn positive_number(text: &str) -> Result<f64, String> {
     between(text, 0.01, 1000.0)
+}
+
+pub(super) fn reach(text: &str) -> Result<f64, String> {
+    let (least, most) = CycleSearchExperiment::REACH;
+    between(text, least, most)
 }
 
 fn percent(text: &str) -> Result<f64, String> {

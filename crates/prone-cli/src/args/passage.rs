@@ -83,6 +83,12 @@ pub(crate) struct FrontierArgs {
     /// by half of that at most
     #[arg(long)]
     pub(crate) steerable: bool,
+    /// Leave out the corners, so that what is found is for good ground only
+    #[arg(long)]
+    pub(crate) ideal: bool,
+    /// Size of the box about the cycle that is searched about, as a share of the largest
+    #[arg(long, value_name = "SHARE", default_value = "1", value_parser = super::optimize::reach, allow_negative_numbers = true)]
+    pub(crate) reach: f64,
     /// Go on from the checkpoint of an interrupted search, if there is one
     #[arg(long)]
     pub(crate) resume: bool,

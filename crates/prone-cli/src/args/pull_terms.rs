@@ -76,6 +76,8 @@ pub(crate) enum ObjectiveName {
     Peak,
     /// ∫ Σ (τ/nominal torque)² dt, s: what warms the motors; of cycles per metre, s/m
     Heat,
+    /// Of cycles: ∫ Σ (τ/nominal torque)² dt per second: how fast the motors warm
+    HeatRate,
     /// Of cycles: minus the advance per cycle, m
     Advance,
     /// Of cycles: minus the speed, m/s

@@ -102,6 +102,11 @@ pub struct CycleSearchExperiment {
     pub objective: CycleObjective,
     /// Whether only cycles that can be steered count.
     pub steerable: bool,
+    /// Whether the corners are left out: what is found is for good ground.
+    pub ideal: bool,
+    /// How large the box about the base is, as a share of the largest, up to
+    /// [`CycleSearchExperiment::REACH`].
+    pub reach: f64,
     /// Under which ceilings.
     pub under: Under,
     /// Cycles of which one is searched about under each ceiling.
@@ -110,6 +115,11 @@ pub struct CycleSearchExperiment {
     pub compared: Vec<GaitText>,
     /// The runs of the optimiser.
     pub runs: Runs,
+}
+
+impl CycleSearchExperiment {
+    /// Least and largest share of the reach.
+    pub const REACH: (f64, f64) = (0.01, 1.0);
 }
 
 /// Under which ceilings cycles are searched, and by which rules.
@@ -150,6 +160,18 @@ pub struct CycleRulesChoice {
     pub most_heat: Option<f64>,
     /// Largest mean force on the head over 20 ms, N.
     pub most_head_n: Option<f64>,
+    /// What the motors of a robot have to be able to do.
+    pub duty: Option<LeastDuty>,
+}
+
+/// For how long the motors of a robot have to be able to do what is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum LeastDuty {
+    /// As long as the battery lasts.
+    Continuous,
+    /// For minutes.
+    Limited,
 }
 
 impl CycleRulesChoice {

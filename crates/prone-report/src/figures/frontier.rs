@@ -39,6 +39,7 @@ pub fn figure(frontier: &Frontier) -> Result<Option<Figure>, FigureError> {
              friction 0.4 and 1, 0.8 and 1.7 times its duration and with 1 ms steps.",
             match frontier.objective {
                 CycleObjective::Heat => "least heat per metre",
+                CycleObjective::HeatRate => "least heat per second",
                 CycleObjective::Advance => "largest advance",
                 CycleObjective::Speed => "largest speed",
                 CycleObjective::Peak => "least torque demanded of a shoulder",

@@ -2,7 +2,6 @@
 
 use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale};
 use prone::motor::{Effort, Load, Reason, Verdict};
-use prone::regime::Servo;
 use prone::robot::{ContactGroup, Robot};
 use prone::statics::GRAVITY;
 use prone_sim::World;
@@ -121,17 +120,13 @@ pub fn of(
     })
 }
 
-/// Efficiency of the gears in a world: what the motors of its regime suppose, or the robot's.
+/// Efficiency of the gears in a world.
 #[derive(Clone, Copy)]
 struct Gears(f64);
 
 impl Gears {
     fn of(world: &World) -> Self {
-        let control = &world.robot().control;
-        Self(match world.regime().servo {
-            Servo::DcMotor(motors) => motors.gear_efficiency(control),
-            Servo::Velocity(_) => control.gear_efficiency,
-        })
+        Self(world.gear_efficiency())
     }
 }
 

@@ -24,7 +24,7 @@ use prone_sim::crawl::CrawlError;
 use prone_sim::self_collision::{SelfCollision, SelfCollisionError};
 
 use super::candidates::{Candidates, Cost, Depth, PointError, Refusal};
-use super::cycle_form::{CycleForm, CycleFormError};
+use super::cycle_form::{CycleForm, CycleFormError, Free};
 use super::cycle_rules::{CycleRules, UNTRIED, above};
 use super::setting::{Role, Setting};
 use super::trial::{Trial, try_out};
@@ -135,7 +135,11 @@ impl CycleCosts {
                 return Err(CycleCostError::Merge { others, settings });
             }
         }
-        let warm = aim.objective == CycleObjective::Heat || aim.rules.heat < f64::INFINITY;
+        let by_heat = matches!(
+            aim.objective,
+            CycleObjective::Heat | CycleObjective::HeatRate
+        );
+        let warm = by_heat || aim.rules.heat < f64::INFINITY;
         if warm {
             world.robot().check_motors()?;
         }
@@ -181,12 +185,14 @@ impl CycleCosts {
             cost.add_all(&rules.broken_by_trial(setting.spec.role, servo, &trial, first));
             cost.trials.push(trial);
         }
-        let tried = self.settings.iter().zip(&cost.trials);
-        let valued: Vec<&Trial> = tried
-            .filter(|(setting, _)| setting.spec.role == Role::Value)
-            .map(|(_, trial)| trial)
-            .collect();
-        cost.value = value(*objective, &valued, merge);
+        let of = |counts: fn(Role) -> bool| {
+            let tried = self.settings.iter().zip(&cost.trials);
+            let counted = tried.filter(|(setting, _)| counts(setting.spec.role));
+            counted.map(|(_, trial)| trial).collect::<Vec<_>>()
+        };
+        let valued = of(|role| role == Role::Value);
+        let kept = of(|role| matches!(role, Role::Value | Role::Keep(_)));
+        cost.value = value(*objective, &valued, &kept, merge);
         if !valued.is_empty() {
             cost.add("heat", rules.broken_by_heat(merge.heat(&valued)));
         }
@@ -255,9 +261,10 @@ impl CycleSearch {
         settings: &Arc<[Setting]>,
         aim: CycleAim,
         base: &Cycle,
+        free: Free,
     ) -> Result<Self, CycleCostError> {
         Ok(Self {
-            form: CycleForm::about(robot, base)?,
+            form: CycleForm::about(robot, base, free)?,
             costs: CycleCosts::new(Arc::clone(settings), aim, base)?,
         })
     }
@@ -284,14 +291,31 @@ impl Candidates for CycleSearch {
     }
 }
 
-/// Of trials where values count, the one with the robot's own servos first.
-fn value(objective: CycleObjective, trials: &[&Trial], merge: &Merge) -> f64 {
-    let first = |of: fn(&Trial) -> f64| trials.first().map_or(f64::NAN, |trial| of(trial));
+/// Of trials where values count, the one with the robot's own servos first; of advance and speed that
+/// of the worst of all the settings in which the advance has to be kept.
+fn value(objective: CycleObjective, valued: &[&Trial], kept: &[&Trial], merge: &Merge) -> f64 {
+    let first = |of: fn(&Trial) -> f64| valued.first().map_or(f64::NAN, |trial| of(trial));
+    let worst = |of: fn(&Trial) -> f64| {
+        let values = kept.iter().map(|trial| of(trial));
+        // NaN of either sign is below all numbers.
+        let least = values.min_by(|a, b| nan_last(*a).total_cmp(&nan_last(*b)));
+        least.map_or(f64::NAN, |least| -least)
+    };
     match objective {
-        CycleObjective::Heat => merge.heat(trials),
-        CycleObjective::Advance => first(|trial| -trial.advance),
-        CycleObjective::Speed => first(|trial| -trial.advance / trial.seconds),
+        CycleObjective::Heat => merge.heat(valued),
+        CycleObjective::HeatRate => first(|trial| trial.heat_per_metre * trial.speed()),
+        CycleObjective::Advance => worst(|trial| trial.advance),
+        CycleObjective::Speed => worst(Trial::speed),
         CycleObjective::Peak => first(|trial| trial.demanded_shoulder),
+    }
+}
+
+/// What is not a number, as the least of all.
+fn nan_last(value: f64) -> f64 {
+    if value.is_nan() {
+        f64::NEG_INFINITY
+    } else {
+        value
     }
 }
 

@@ -14,17 +14,37 @@ use prone_optim::{Interval, IntervalError};
 
 use super::candidates::PointError;
 
-/// How far the curves of the pull may move from the middle, rad.
+/// How far the curves of the pull may move from the middle, rad, of a box of full reach.
 const CURVE_REACH: f64 = 0.35;
 /// How far a waypoint's joints may, rad.
 const JOINT_REACH: f64 = 0.5;
 /// By which factor times may.
 const TIME_REACH: f64 = 1.4;
+/// How far the factors of a waypoint's turn may.
+const TURN_REACH: f64 = 0.5;
+
+/// What of a cycle is free, and how far.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Free {
+    /// Share of the full reach: a search about a good cycle finds more with a smaller box.
+    pub reach: f64,
+    /// Whether the factors of the waypoints' turns are free too.
+    pub turns: bool,
+}
+
+impl Free {
+    /// All but the turns, as far as it goes.
+    pub const FULL: Self = Self {
+        reach: 1.0,
+        turns: false,
+    };
+}
 
 /// Cycles about one.
 #[derive(Debug, Clone)]
 pub struct CycleForm {
     middle: Cycle,
+    free: Free,
     variables: Vec<Variable>,
     bounds: Vec<Interval>,
 }
@@ -36,6 +56,8 @@ enum Variable {
     Curve(PullCurve, usize),
     /// A waypoint's joint.
     Joint(usize, String),
+    /// The factor of a waypoint's turn of a joint.
+    Turn(usize, String),
     /// The pull's time.
     PullTime,
     /// The time of the way to a waypoint, or, beyond the last one, to the pull's first posture.
@@ -82,10 +104,11 @@ pub enum CycleFormError {
 
 impl CycleForm {
     /// The box about a cycle that a robot can crawl.
-    pub fn about(robot: &Robot, middle: &Cycle) -> Result<Self, CycleFormError> {
+    pub fn about(robot: &Robot, middle: &Cycle, free: Free) -> Result<Self, CycleFormError> {
         let middle = completed(robot, middle)?;
         let mut form = Self {
             middle,
+            free,
             variables: Vec::new(),
             bounds: Vec::new(),
         };
@@ -105,10 +128,14 @@ impl CycleForm {
                 )?;
             }
         }
+        if free.turns {
+            form.turns(&middle)?;
+        }
         for (variable, seconds) in times(&middle) {
             let name = format!("{variable:?}");
             form.variables.push(variable);
-            let interval = Interval::new(seconds / TIME_REACH, seconds * TIME_REACH);
+            let factor = TIME_REACH.powf(free.reach);
+            let interval = Interval::new(seconds / factor, seconds * factor);
             form.bounds
                 .push(interval.map_err(|source| CycleFormError::Interval {
                     variable: name,
@@ -116,6 +143,16 @@ impl CycleForm {
                 })?);
         }
         Ok(form)
+    }
+
+    fn turns(&mut self, middle: &Cycle) -> Result<(), CycleFormError> {
+        for (index, waypoint) in middle.waypoints.iter().enumerate() {
+            for (joint, &factor) in &waypoint.turn {
+                let variable = Variable::Turn(index, joint.clone());
+                self.add(variable, factor, TURN_REACH, ANY)?;
+            }
+        }
+        Ok(())
     }
 
     fn pull(&mut self, robot: &Robot, pull: &Pull) -> Result<(), CycleFormError> {
@@ -157,6 +194,7 @@ impl CycleForm {
         reach: f64,
         within: Range,
     ) -> Result<(), CycleFormError> {
+        let reach = reach * self.free.reach;
         let low = (middle - reach).max(within.lower);
         let high = (middle + reach).min(within.upper);
         let interval = Interval::new(low, high).map_err(|source| CycleFormError::Interval {
@@ -197,6 +235,9 @@ impl CycleForm {
                 }
                 Variable::Joint(index, joint) => {
                     cycle.waypoints[*index].joints.insert(joint.clone(), value);
+                }
+                Variable::Turn(index, joint) => {
+                    cycle.waypoints[*index].turn.insert(joint.clone(), value);
                 }
                 Variable::PullTime => {
                     if let Some(pull) = &mut cycle.pull {
@@ -298,7 +339,7 @@ mod tests {
         let robot = loaded.robot();
         for name in ["low-175", "low-165", "efficient", "far-200"] {
             let cycle = shipped::cycle(name).unwrap().unwrap();
-            let form = CycleForm::about(robot, &cycle).unwrap();
+            let form = CycleForm::about(robot, &cycle, Free::FULL).unwrap();
             let point = form.point(&form.middle);
             let again = form.cycle(&point).unwrap();
             let stops = robot.stops();
@@ -328,7 +369,7 @@ mod tests {
     #[test]
     fn limit_a_time_that_no_pull_has_makes_no_cycle() {
         let loaded = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
-        let form = |cycle: &Cycle| CycleForm::about(loaded.robot(), cycle).unwrap();
+        let form = |cycle: &Cycle| CycleForm::about(loaded.robot(), cycle, Free::FULL).unwrap();
         let cycle = shipped::cycle("low-175").unwrap().unwrap();
         let mut long = cycle.clone();
         long.pull.as_mut().unwrap().duration = PhaseDuration::new(500.0).unwrap();
@@ -370,6 +411,7 @@ mod tests {
                 Variable::Curve(PullCurve::UpperArm, c) => at(&pull().upper_arm, *c),
                 Variable::Curve(PullCurve::Company(joint), c) => at(&pull().company[joint], *c),
                 Variable::Joint(index, joint) => cycle.waypoints[*index].joints[joint],
+                Variable::Turn(index, joint) => cycle.waypoints[*index].turn[joint],
                 Variable::PullTime | Variable::Time(_) => time(variable),
             });
             numbers.collect()

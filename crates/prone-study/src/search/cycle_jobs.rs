@@ -3,12 +3,14 @@
 use std::sync::Arc;
 
 use prone::gait::cycle::{Cycle, TimeScale};
+use prone::motor::Duty;
 use prone::regime::Regime;
 use prone::robot::Robot;
 use prone_files::cycle_file;
 use prone_files::plain_name::{self, GaitNameError};
 use prone_record::experiment::{
-    CycleRulesChoice, CycleSearchExperiment, Limit, NamedGait, TextError, Under, check_heights,
+    CycleRulesChoice, CycleSearchExperiment, LeastDuty, Limit, NamedGait, TextError, Under,
+    check_heights,
 };
 use prone_record::frontier::CycleObjective;
 use prone_record::program::{Program, RobotInfo};
@@ -22,7 +24,8 @@ use super::cycle_rules::CycleRules;
 use super::room::{NoRoom, too_low};
 use super::run::Job;
 use super::setting::Setting;
-use super::settings::{self, SettingError};
+use super::cycle_form::Free;
+use super::settings::{self, Corners, SettingError};
 use super::trial::{Trial, try_out};
 use crate::watch::Watch;
 
@@ -114,7 +117,18 @@ pub fn jobs(
     let from: Vec<Cycle> = from.collect::<Result<_, _>>()?;
     let ceilings = ceilings(&experiment.under);
     check(experiment, &ceilings, robot.robot())?;
-    let mut searched = settings::for_search(objective, robot)?;
+    let corners = if experiment.ideal {
+        Corners::None
+    } else {
+        Corners::Searched
+    };
+    let mut searched = settings::for_search(objective, robot, corners)?;
+    let (least, most) = CycleSearchExperiment::REACH;
+    Limit::check("a reach", "", experiment.reach, (least, most))?;
+    let free = Free {
+        reach: experiment.reach,
+        turns: experiment.steerable,
+    };
     if experiment.steerable {
         searched.extend(settings::for_steering(robot)?);
     }
@@ -138,7 +152,7 @@ pub fn jobs(
         let job = Job {
             ceiling_mm: mm,
             base: base.name.clone(),
-            candidates: CycleSearch::new(robot.robot(), &searched, aim, base)?,
+            candidates: CycleSearch::new(robot.robot(), &searched, aim, base, free)?,
         };
         Ok((job, base.clone()))
     };
@@ -235,7 +249,10 @@ fn check(
             name.as_deref().map_or(Ok(()), plain_name::check_gait)?;
             rules.check()?;
             let objective = experiment.objective;
-            let several = matches!(objective, CycleObjective::Heat | CycleObjective::Peak);
+            let several = matches!(
+                objective,
+                CycleObjective::Heat | CycleObjective::HeatRate | CycleObjective::Peak
+            );
             let heats = [
                 ("worst_over", worst_over.is_some()),
                 ("most_heat", rules.most_heat.is_some()),
@@ -280,6 +297,11 @@ fn asked_rules(asked: &CycleRulesChoice, usual: CycleRules) -> CycleRules {
         body_share: share.unwrap_or(usual.body_share),
         heat: asked.most_heat.unwrap_or(usual.heat),
         head: asked.most_head_n.unwrap_or(usual.head),
+        duty: match asked.duty {
+            None => usual.duty,
+            Some(LeastDuty::Continuous) => Duty::Continuous,
+            Some(LeastDuty::Limited) => Duty::Limited,
+        },
         ..usual
     }
 }
@@ -327,7 +349,7 @@ pub fn usual_rules(
         ..CycleRules::FREE
     };
     match objective {
-        CycleObjective::Heat | CycleObjective::Peak => CycleRules {
+        CycleObjective::Heat | CycleObjective::HeatRate | CycleObjective::Peak => CycleRules {
             advance: robot.search.least_advance,
             ..free
         },

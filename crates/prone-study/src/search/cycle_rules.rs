@@ -3,7 +3,8 @@
 //! With a value v and its limit, a rule is broken by
 //!
 //! ```text
-//! max(v / largest − 1, 0)    height, duration, demanded torque, heat, drift of the heading    (1)
+//! max(v / largest − 1, 0)    height, duration, demanded torque, heat, drift of the heading,
+//!                            each measure of the motors against the bound of a duty           (1)
 //! max(1 − v / least, 0)      advance, turn                                                    (2)
 //! max(v − largest, 0)        share of the weight on trunk, head and legs, and on the head     (3)
 //! ```
@@ -19,7 +20,7 @@
 //! - A search's least advance is no less than its rules ask, a confirmation asks for a share of what
 //!   the cycle itself comes to in the first setting, and that it advances at all.
 
-use prone::motor::HEAD_CARRIES;
+use prone::motor::{Duty, HEAD_CARRIES, Measure};
 use prone::regime::{MotorServo, Servo};
 
 use super::setting::{HOLDS, Role};
@@ -48,6 +49,9 @@ pub struct CycleRules {
     pub head: f64,
     /// Largest heat, merged over servos.
     pub heat: f64,
+    /// Least of what the motors of a robot could do in the first setting ([`Duty::NotOnARobot`] asks
+    /// for nothing).
+    pub duty: Duty,
 }
 
 impl CycleRules {
@@ -60,6 +64,7 @@ impl CycleRules {
         demanded_shoulder: f64::INFINITY,
         head: HEAD_CARRIES,
         heat: f64::INFINITY,
+        duty: Duty::NotOnARobot,
     };
 
     /// What a cycle of a duration, s, breaks.
@@ -101,6 +106,9 @@ impl CycleRules {
         if self.body_share < 1.0 && role == Role::Value {
             let excess = number(trial.body_share - self.body_share).max(0.0);
             broken.push(("body-share", excess));
+        }
+        if role == Role::Value && servo == Servo::DcMotor(MotorServo::ROBOT) {
+            broken.push(("duty", beyond(self.duty, trial)));
         }
         if servo == Servo::DcMotor(MotorServo::ROBOT) {
             let excess = above(trial.demanded_shoulder, self.demanded_shoulder);
@@ -146,6 +154,28 @@ impl Bounds {
         ceiling: f64::INFINITY,
         head: f64::INFINITY,
     };
+}
+
+/// Equation (1) of each measure of a motor that is beyond the bound of a duty; the head has a rule of
+/// its own.
+fn beyond(duty: Duty, trial: &Trial) -> f64 {
+    if duty == Duty::NotOnARobot {
+        return 0.0;
+    }
+    let Some(verdict) = &trial.verdict else {
+        return UNTRIED;
+    };
+    let motors = verdict.reasons.iter();
+    let motors = motors.filter(|reason| reason.measure != Measure::Head);
+    let excess = motors.map(|reason| {
+        let (continuous, limited) = reason.measure.bounds();
+        let bound = match duty {
+            Duty::Continuous => continuous,
+            Duty::Limited | Duty::NotOnARobot => limited,
+        };
+        above(reason.value, bound)
+    });
+    excess.sum()
 }
 
 /// Equation (3) of the force on the head, over the weight.

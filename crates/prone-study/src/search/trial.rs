@@ -1,9 +1,11 @@
 //! One way to crawl a cycle, and what the cycle comes to in it.
 
-use prone::crawl::Straight;
+use prone::crawl::{Pilot, Straight};
 use prone::gait::cycle::Cycle;
+use prone::motor::{Load, Verdict};
 use prone::robot::BodyPart;
 use prone::statics::GRAVITY;
+use prone::steering::HeadingHold;
 use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, Detail, End};
 
 use super::setting::Setting;
@@ -34,6 +36,19 @@ pub struct Trial {
     pub body_share: f64,
     /// Change of heading, rad.
     pub yaw: f64,
+    /// Whether the motors of a robot could do it; nothing where one is not known.
+    pub verdict: Option<Verdict>,
+}
+
+impl Trial {
+    /// Speed, m/s; 0 of what took no time.
+    pub fn speed(&self) -> f64 {
+        if self.seconds > 0.0 {
+            self.advance / self.seconds
+        } else {
+            0.0
+        }
+    }
 }
 
 /// Crawls a cycle in one setting.
@@ -54,8 +69,12 @@ pub fn try_out(setting: &Setting, cycle: &Cycle) -> Result<Trial, CrawlError> {
         imu_seed: None,
         detail: Detail::Sums,
     };
-    let pilot = Straight {
-        turn: setting.spec.turn * limit,
+    let turn = setting.spec.turn * limit;
+    let pilot: Box<dyn Pilot> = if setting.spec.held && limit > 0.0 {
+        let gains = setting.world.robot().control.steering;
+        Box::new(HeadingHold::new(gains, limit))
+    } else {
+        Box::new(Straight { turn })
     };
     let crawl = crawl::run(&setting.world, &plan, pilot)?;
     Ok(measured(setting, &crawl))
@@ -79,7 +98,18 @@ fn measured(setting: &Setting, crawl: &Crawl) -> Trial {
         weight: weight(setting),
         body_share: last.body_share,
         yaw: advance.yaw,
+        verdict: verdict(setting, crawl),
     }
+}
+
+fn verdict(setting: &Setting, crawl: &Crawl) -> Option<Verdict> {
+    let load = Load {
+        robot: setting.world.robot(),
+        gear_efficiency: setting.world.gear_efficiency(),
+        effort: &crawl.effort,
+        head: crawl.ground.head_peak(),
+    };
+    Verdict::from_load(&load).ok()
 }
 
 fn weight(setting: &Setting) -> f64 {
@@ -109,5 +139,6 @@ fn nothing(setting: &Setting, crawl: &Crawl) -> Trial {
         weight: weight(setting),
         body_share: 0.0,
         yaw: 0.0,
+        verdict: None,
     }
 }

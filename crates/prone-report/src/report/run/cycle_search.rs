@@ -32,6 +32,7 @@ fn quantity(objective: CycleObjective, under: &UnderPlan) -> (&'static str, &'st
     match objective {
         CycleObjective::Heat if over => ("heat over another cycle's", "–", 1.0),
         CycleObjective::Heat => ("heat per metre", "s/m", 1.0),
+        CycleObjective::HeatRate => ("heat per second", "", 1.0),
         CycleObjective::Advance => ("advance per cycle", "mm", -1e3),
         CycleObjective::Speed => ("speed", "mm/s", -1e3),
         CycleObjective::Peak => ("torque demanded of a shoulder", "N·m", 1.0),
