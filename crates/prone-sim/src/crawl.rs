@@ -28,7 +28,7 @@ use prone::motor::Effort;
 use prone::port::{Command as _, JointCommand, Pace as _, PortError, Senses};
 use prone::robot::{JointAngles, Tops};
 
-use crate::driven::{SimulatedRobot, StoppedJoint};
+use crate::driven::{LateCommands, SimulatedRobot, StoppedJoint};
 use crate::imu::{ImuError, SimulatedImu};
 use crate::pull::SETTLE;
 use crate::simulation::{Placement, Simulation, SimulationError, Snapshot};
@@ -52,6 +52,8 @@ pub struct CrawlPlan {
     pub end: End,
     /// What every commanded angle is off by, rad: joints are not calibrated exactly.
     pub offsets: Option<JointAngles>,
+    /// How late commands reach the servos, where they do.
+    pub late: Option<LateCommands>,
     /// Seed of the inertial unit's noise, where the unit is read.
     pub imu_seed: Option<u64>,
     /// What is kept.
@@ -89,8 +91,8 @@ pub struct Crawl {
     /// Speeds of that instant: of the root, m/s in the ground frame, its turn, rad/s in its own, and
     /// of the joints, rad/s.
     pub start_speeds: Vec<f64>,
-    /// Every command, with the time at which it was given, s since the first pull began; rad. Kept
-    /// with rows.
+    /// Every command, with the time at which it reached the servos, s since the first pull began; rad.
+    /// That is when it was given, but where commands are late. Kept with rows.
     pub commands: Vec<(f64, JointAngles)>,
     /// One row per cycle.
     pub cycles: Vec<CycleRow>,
@@ -221,6 +223,7 @@ pub fn lie_down<P: Pilot>(
     simulation.place_front_at(0.0);
     let mut robot = SimulatedRobot::new(simulation)
         .with_offsets(plan.offsets.clone())
+        .with_late_commands(plan.late)
         .with_imu(imu.transpose()?);
     let regime = world.regime();
     let steps = regime.steps_in(SETTLE) - regime.steps_in(FELT_AT_REST) + 1;
@@ -328,8 +331,7 @@ impl<P: Pilot> Watch<SimulatedRobot, P> for Metered<'_> {
     }
 
     fn waited(&mut self, robot: &SimulatedRobot, crawler: &Crawler<P>) {
-        let command = (robot.commanded(), crawler.stage());
-        self.meter.step(robot.simulation(), command);
+        self.meter.step(robot, crawler.stage());
     }
 }
 

@@ -2,8 +2,13 @@
 //!
 //! A tick is one engine step. Commands reach the servos as the motors of a robot take them: off by
 //! the calibration error of each joint, and no farther than its stop; the measured angles are the true
-//! ones, without that error. The bearing that is felt is the
+//! ones, without that error. Where commands are late ([`LateCommands`]), they reach the servos some
+//! steps after they were given. The bearing that is felt is the
 //! simulation's own, without error; what the inertial unit says has noise and bias ([`crate::imu`]).
+
+mod late;
+
+pub use late::LateCommands;
 
 use prone::port::{
     Command, InertialUnit, JointCommand, Limits, Pace, PortError, Segment, Sense, Senses, Stop,
@@ -13,6 +18,7 @@ use prone::steering::Bearing;
 
 use crate::imu::SimulatedImu;
 use crate::simulation::Simulation;
+use late::Bus;
 
 /// A simulated robot that can be driven.
 #[derive(Debug, Clone)]
@@ -23,6 +29,10 @@ pub struct SimulatedRobot {
     offsets: Option<JointAngles>,
     /// What was commanded last, before the offsets, rad.
     commanded: JointAngles,
+    /// What commands take their time on, where they are late.
+    bus: Option<Bus>,
+    /// What has reached the servos last, before the offsets, rad; only kept where commands are late.
+    reached: JointAngles,
     path: Option<Path>,
     stopped: Vec<Option<StoppedJoint>>,
 }
@@ -47,12 +57,14 @@ pub struct StoppedJoint {
 }
 
 impl SimulatedRobot {
-    /// A robot whose joints are exact and whose inertial unit is not read.
+    /// A robot whose joints are exact, whose servos get every command at once, and whose inertial unit is not read.
     pub fn new(simulation: Simulation) -> Self {
         Self {
             imu: None,
             offsets: None,
             commanded: simulation.reference(),
+            bus: None,
+            reached: simulation.reference(),
             path: None,
             stopped: vec![None; simulation.robot().joints.len()],
             simulation,
@@ -63,6 +75,16 @@ impl SimulatedRobot {
     #[must_use]
     pub fn with_offsets(self, offsets: Option<JointAngles>) -> Self {
         Self { offsets, ..self }
+    }
+
+    /// The same with commands that reach the servos late.
+    #[must_use]
+    pub fn with_late_commands(self, late: Option<LateCommands>) -> Self {
+        let regime = *self.simulation.world().regime();
+        Self {
+            bus: late.map(|late| Bus::new(late, &regime)),
+            ..self
+        }
     }
 
     /// The same with an inertial unit that is read with every look at its senses.
@@ -81,17 +103,34 @@ impl SimulatedRobot {
         &self.commanded
     }
 
+    /// What has reached the servos last, rad, before any calibration error: what was commanded last,
+    /// where commands are not late.
+    pub const fn reached(&self) -> &JointAngles {
+        match self.bus {
+            Some(_) => &self.reached,
+            None => &self.commanded,
+        }
+    }
+
     /// Joints whose calibration error was stopped at a stop so far.
     pub fn stopped(&self) -> Vec<StoppedJoint> {
         self.stopped.iter().flatten().copied().collect()
     }
 
     fn hold(&mut self, posture: JointAngles) {
-        match self.off_by(&posture) {
-            None => self.simulation.command(&posture),
-            Some(off) => self.simulation.command(&off),
+        match &mut self.bus {
+            Some(bus) => bus.command(posture.clone()),
+            None => self.reach(&posture),
         }
         self.commanded = posture;
+    }
+
+    /// Lets the servos hold a posture from now on, off by the calibration errors.
+    fn reach(&mut self, posture: &JointAngles) {
+        match self.off_by(posture) {
+            None => self.simulation.command(posture),
+            Some(off) => self.simulation.command(&off),
+        }
     }
 
     /// A command as the motors take it, `None` where they are exact.
@@ -174,6 +213,11 @@ impl Pace for SimulatedRobot {
                 self.path = None;
             }
             self.hold(posture);
+        }
+        let step = self.simulation.steps();
+        if let Some(posture) = self.bus.as_mut().and_then(|bus| bus.arrived(step)) {
+            self.reach(&posture);
+            self.reached = posture;
         }
         self.simulation.step();
         let checked = self.simulation.check();

@@ -12,8 +12,6 @@
 //! (2.5 ms) old. Where the sensor is off the root's centre it feels the root turn, as a real one
 //! does.
 
-use std::f64::consts::TAU;
-
 use glam::DVec3;
 use mujoco_rs::prelude::*;
 
@@ -21,6 +19,7 @@ use prone::attitude::ImuReading;
 use prone::frames::{Root, Sensor, Transform};
 use prone::robot::SensorNoise;
 
+use crate::random::Random;
 use crate::simulation::Simulation;
 use crate::world::World;
 
@@ -64,7 +63,7 @@ impl SimulatedImu {
             robot: robot.name.clone(),
         };
         let imu = robot.imu.as_ref().ok_or_else(none)?;
-        let mut random = Random(seed);
+        let mut random = Random::new(seed);
         let mut sensor = |kind, noise: SensorNoise| {
             // The loader has made sure of both sensors.
             let address = address(&world.model, &imu.site, kind).ok_or_else(none)?;
@@ -106,41 +105,6 @@ fn address(model: &MjModel, site: &str, wanted: MjtSensor) -> Option<usize> {
     let index =
         sensors.position(|(&kind, &at)| kind == wanted && usize::try_from(at) == Ok(site))?;
     usize::try_from(model.sensor_adr()[index]).ok()
-}
-
-/// `SplitMix64` (Steele, Lea and Flood 2014), whose sequence never changes. The optimisers have a
-/// generator of their own in a crate that knows no robot; noise needs no long period.
-#[derive(Debug, Clone)]
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// Uniform in [0, 1): the upper 53 bits.
-    fn uniform(&mut self) -> f64 {
-        const STEP: f64 = 1.0 / (1_u64 << 53) as f64;
-        (self.next() >> 11) as f64 * STEP
-    }
-
-    /// Standard normal (Box and Muller 1958, the cosine half).
-    fn normal(&mut self) -> f64 {
-        let radius = (-2.0 * (1.0 - self.uniform()).ln()).sqrt();
-        radius * (TAU * self.uniform()).cos()
-    }
-
-    fn bias(&mut self, bound: f64) -> DVec3 {
-        DVec3::from_array([(); 3].map(|()| bound * (2.0 * self.uniform() - 1.0)))
-    }
-
-    fn noise(&mut self, standard_deviation: f64) -> DVec3 {
-        DVec3::from_array([(); 3].map(|()| standard_deviation * self.normal()))
-    }
 }
 
 #[cfg(test)]

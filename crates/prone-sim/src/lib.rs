@@ -20,6 +20,7 @@ pub mod imu;
 mod load;
 mod model_view;
 pub mod pull;
+mod random;
 pub mod self_collision;
 pub mod settled;
 mod simulation;

@@ -152,6 +152,11 @@ impl World {
         Arc::clone(&self.robot)
     }
 
+    /// Mass of the robot in this world, kg: that of its model times the regime's factor.
+    pub fn mass(&self) -> f64 {
+        self.robot.mass() * self.regime.mass_factor
+    }
+
     /// The contact regime.
     pub const fn regime(&self) -> &Regime {
         &self.regime
@@ -232,6 +237,7 @@ fn compile(
     scenery.add_to(&mut spec, friction)?;
     drives::add_actuators(&mut spec, robot, drives);
     let mut model = spec.compile()?;
+    scale_masses(&mut model, robot, regime.mass_factor);
     drives::add_back_emf(&mut model, drives);
     // In the compiled model angles are radians, whatever unit the text has.
     for (index, stop) in stops.iter().enumerate() {
@@ -248,6 +254,16 @@ fn compile(
         friction::set_by_side(&mut model, &roles, robot, sides);
     }
     Ok(model)
+}
+
+/// Multiplies masses and moments of inertia of all bodies of the robot; the world, obstacles included,
+/// has none. What the engine derives from them is worked out anew.
+fn scale_masses(model: &mut MjModel, robot: &Robot, factor: f64) {
+    // With a factor of 1 the model stays as it was compiled, to the bit.
+    if (factor - 1.0).abs() > 0.0 {
+        model.set_totalmass(robot.mass() * factor);
+        MjData::new(model).set_const();
+    }
 }
 
 /// All that the model's `<option>` could say, replaced.

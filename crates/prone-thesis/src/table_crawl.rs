@@ -95,6 +95,7 @@ fn experiment(
         scale: TimeScale::ONE,
         end: End::Cycles(published.cycles),
         offsets: None,
+        late: None,
         imu_seed: None,
         detail: Detail::Rows,
     };

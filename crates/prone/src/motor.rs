@@ -16,6 +16,17 @@
 //! that after the step: so it stays stable, and |τ| passes the limit by no more than b times the
 //! change of ω in a step.
 //!
+//! **Play.** A gear may have some backlash β. Then the error that (2) goes by is
+//!
+//! ```text
+//! error = e − clip(e, ±β/2),   e = command − angle of the joint                          (5)
+//! ```
+//!
+//! Within ± half the play the teeth of the gear are apart, and the controller passes no torque on;
+//! outside, the error counts from the edge of the play. The play is no joint of its own. So rotor
+//! inertia and back-EMF stay at the joint, also where the teeth are apart, and teeth meet without an
+//! impact. Where one motor turns two joints there is one gear, and one play of the mean of their errors.
+//!
 //! η is an estimate ([`crate::robot::Control::gear_efficiency`]). Of a joint whose motor is not
 //! known, η τₛ is taken for its effort limit and ω₀ for its speed limit; [`DcServo::assumed`] says
 //! so, and nothing is said about its heat.
@@ -73,6 +84,8 @@ pub struct DcServo {
     /// Whether stall torque or no-load speed are not the manufacturer's but assumed from the
     /// limits.
     pub assumed: bool,
+    /// Play of the gear from one edge to the other, β, rad.
+    pub backlash: f64,
 }
 
 /// What a motor is made to do at one instant.
@@ -100,10 +113,23 @@ impl DcServo {
             current_torque,
             back_emf: supply_torque / no_load,
             assumed: known.is_none(),
+            backlash: 0.0,
         }
     }
 
-    /// Equations (2) and (3) at a position error, rad, and a speed, rad/s.
+    /// The same motor behind a gear with some play from one edge to the other, rad.
+    #[must_use]
+    pub const fn with_backlash(self, backlash: f64) -> Self {
+        Self { backlash, ..self }
+    }
+
+    /// Equation (5): what the play leaves of a position error, rad.
+    pub fn beyond_play(&self, error: f64) -> f64 {
+        let half = self.backlash / 2.0;
+        error - error.clamp(-half, half)
+    }
+
+    /// Equations (2) and (3) at a position error that is left beyond the play, rad, and a speed, rad/s.
     pub fn drive(&self, error: f64, speed: f64) -> Driven {
         let wanted = self.stiffness * error;
         let by_supply = wanted.clamp(-self.supply_torque, self.supply_torque);
@@ -180,6 +206,23 @@ mod tests {
         // Driven backwards fast, it brakes with no more than its limit.
         let braking = servo.drive(0.0, -20.0);
         near(servo.applied(&braking, -20.0), 1.5);
+    }
+
+    /// Between the edges of the play nothing is left of an error; outside, half the play is taken off.
+    /// Without play an error keeps every bit.
+    #[test]
+    fn limit_play_takes_half_of_it_off_an_error() {
+        let tight = DcServo::new(&joint(), 0.6, 1.0, 1.5);
+        let loose = tight.with_backlash(0.02);
+        for error in [0.0, 0.005, -0.01, 0.01] {
+            near(loose.beyond_play(error), 0.0);
+        }
+        near(loose.beyond_play(0.013), 0.003);
+        near(loose.beyond_play(-0.013), -0.003);
+        assert!(loose.beyond_play(f64::NAN).is_nan());
+        for error in [0.1_f64, -0.013, 1e-300] {
+            assert_eq!(tight.beyond_play(error).to_bits(), error.to_bits());
+        }
     }
 
     #[test]

@@ -3,6 +3,9 @@
 //! The planted chain is statically indeterminate: how much toes and elbows squeeze it between
 //! them, and with it every torque, depends on how friction is modelled. So friction is never a
 //! free number here but a property of a named regime, and every record says which one it used.
+//!
+//! A regime also says how a simulated robot differs from its model: by its masses, by the stiffness of
+//! its servos, by the play of its gears. Commands that arrive late are no matter of a regime.
 
 use crate::robot::{Control, Joint};
 
@@ -23,6 +26,9 @@ pub struct Regime {
     pub servo: Servo,
     /// Length of one engine step, s; a whole number of them makes a [`CONTROL_STEP`].
     pub time_step: f64,
+    /// What all masses and moments of inertia of the robot's bodies are multiplied by: 1 where it
+    /// weighs what its model says. The armature of its joints stays.
+    pub mass_factor: f64,
 }
 
 /// Which joint stops a regime uses.
@@ -61,6 +67,8 @@ pub struct MotorServo {
     pub stiffness_factor: f64,
     /// Efficiency of the gears in place of the robot's ([`Control::gear_efficiency`]).
     pub gear_efficiency: Option<f64>,
+    /// Play of every gear ([`crate::motor`]), from one edge to the other, rad.
+    pub backlash: f64,
 }
 
 /// A servo that follows a speed: torque = gain · (v − ω) with v = clip(rate · error, ±speed).
@@ -80,6 +88,7 @@ impl MotorServo {
     pub const ROBOT: Self = Self {
         stiffness_factor: 1.0,
         gear_efficiency: None,
+        backlash: 0.0,
     };
 
     /// Half as stiff: one end of what is taken to be possible, as nobody has measured a robot's.
@@ -140,6 +149,7 @@ impl Regime {
         torque_limit: TorqueLimit::Uniform(30.0),
         servo: Servo::Velocity(VelocityServo::RECORDINGS),
         time_step: TIME_STEP,
+        mass_factor: 1.0,
     };
 
     /// Contacts that stick, with the robot's own motors and the manufacturer's limits: for moving
@@ -152,6 +162,7 @@ impl Regime {
         torque_limit: TorqueLimit::Published,
         servo: Servo::DcMotor(MotorServo::ROBOT),
         time_step: TIME_STEP,
+        mass_factor: 1.0,
     };
 
     /// For settled torques, which match the recorded static table: full friction, but so soft

@@ -23,7 +23,7 @@ pub struct Row {
     pub cycle: usize,
     /// What it was doing.
     pub stage: Stage,
-    /// Commanded joint angles, rad.
+    /// Commanded joint angles, rad: the command that had reached the servos.
     pub command: JointAngles,
     /// Joint angles, rad.
     pub angles: JointAngles,
@@ -124,8 +124,10 @@ pub(super) struct Meter {
     cycle: Option<CycleRow>,
     loads: [BodyLoad; 2],
     sums: RowSums,
-    /// What was commanded last, and since when, s.
+    /// What was commanded last, however late it reaches the servos, and since when, s.
     command: Option<(JointAngles, f64)>,
+    /// What has reached the servos last.
+    reached: JointAngles,
     touches: Touches,
 }
 
@@ -186,6 +188,7 @@ impl Meter {
             loads: [BodyLoad::default(); 2],
             sums: RowSums::none(simulation),
             command: None,
+            reached: simulation.reference(),
         }
     }
 
@@ -229,22 +232,22 @@ impl Meter {
         self.crawl.cycles.push(cycle);
     }
 
-    /// After each engine step, with what was commanded for it and what that is for.
-    pub(super) fn step(
-        &mut self,
-        simulation: &Simulation,
-        (command, stage): (&JointAngles, Stage),
-    ) {
+    /// After each engine step, with what the commands of it are for.
+    pub(super) fn step(&mut self, robot: &SimulatedRobot, stage: Stage) {
+        let (simulation, reached) = (robot.simulation(), robot.reached());
         let dt = simulation.time_step();
-        let planned = self.planned(simulation, command);
+        let planned = self.planned(simulation, robot.commanded());
+        if self.reached != *reached {
+            self.reached.clone_from(reached);
+        }
         let Some(cycle) = &mut self.cycle else {
             return;
         };
         let since = simulation.time() - self.begin.unwrap_or_default();
         let commands = &mut self.crawl.commands;
-        let is_new = commands.last().is_none_or(|(_, last)| last != command);
+        let is_new = commands.last().is_none_or(|(_, last)| last != reached);
         if self.detail == Detail::Rows && is_new {
-            commands.push((since - dt, command.clone()));
+            commands.push((since - dt, reached.clone()));
         }
         self.touches.step(simulation, since);
         for effort in [&mut cycle.effort, &mut self.sums.effort] {
@@ -335,10 +338,7 @@ impl Meter {
             time: simulation.time() - self.begin.unwrap_or_default(),
             cycle: index,
             stage: sums.stage,
-            command: self
-                .command
-                .as_ref()
-                .map_or_else(|| simulation.reference(), |(command, _)| command.clone()),
+            command: self.reached.clone(),
             angles: simulation.joint_angles(),
             applied_torque: sums.torque.iter().map(|&sum| mean(sum)).collect(),
             contact,

@@ -25,6 +25,7 @@ fn crawl(world: &World, cycle: &str, cycles: usize, turn: f64) -> Crawl {
         scale: TimeScale::ONE,
         end: End::Cycles(cycles),
         offsets: None,
+        late: None,
         imu_seed: None,
         detail: Detail::Sums,
     };
@@ -78,6 +79,7 @@ fn a_low_plate_is_touched_and_the_floor_carries_the_rest() {
             scale: TimeScale::ONE,
             end: End::Cycles(3),
             offsets: None,
+            late: None,
             imu_seed: None,
             detail: Detail::Rows,
         };
@@ -136,6 +138,7 @@ fn felt(degrees: f64) -> (Vec<f64>, Vec<String>) {
         scale: TimeScale::ONE,
         end: End::Cycles(4),
         offsets: None,
+        late: None,
         imu_seed: Some(1),
         detail: Detail::Sums,
     };
@@ -177,6 +180,7 @@ fn off_the_line(cycle: &str, pilot: impl Pilot) -> f64 {
         scale: TimeScale::ONE,
         end: End::Cycles(25),
         offsets: None,
+        late: None,
         imu_seed: None,
         detail: Detail::Sums,
     };
@@ -209,6 +213,7 @@ fn a_heading_is_reached_without_overshoot() {
         scale: TimeScale::ONE,
         end: End::Cycles(16),
         offsets: None,
+        late: None,
         imu_seed: None,
         detail: Detail::Sums,
     };
@@ -370,6 +375,7 @@ fn steady(cycles: usize) -> CrawlPlan {
         scale: TimeScale::ONE,
         end: End::Cycles(cycles),
         offsets: None,
+        late: None,
         imu_seed: None,
         detail: Detail::Sums,
     }

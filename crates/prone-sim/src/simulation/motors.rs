@@ -18,7 +18,8 @@ use crate::world::{World, WorldDrive, WorldServo};
 pub(super) struct Motors {
     /// What each drive that is a motor was told, by the world's drives.
     driven: Vec<Option<Driven>>,
-    /// |Position error| that the controller of each drive goes by, the mean of its joints', rad.
+    /// |Position error| that the controller of each drive goes by, rad: the mean of its joints', as
+    /// far as it is beyond the play of the gear.
     lags: Vec<f64>,
     /// Joint speeds before the step, rad/s.
     before: Vec<f64>,
@@ -73,9 +74,10 @@ impl Motors {
                 error += (reference[joint] - data.qpos()[FREE_JOINT + joint]) / sharers;
                 speed += self.before[joint] / sharers;
             }
-            self.lags[index] = error.abs();
             match servo {
                 WorldServo::Motor(motor) => {
+                    let error = motor.beyond_play(error);
+                    self.lags[index] = error.abs();
                     let told = motor.drive(error, speed);
                     for joint in joints {
                         data.ctrl_mut()[joint] = told.torque / sharers;
@@ -83,6 +85,7 @@ impl Motors {
                     self.driven[index] = Some(told);
                 }
                 WorldServo::Velocity { law, .. } => {
+                    self.lags[index] = error.abs();
                     for joint in joints {
                         let error = reference[joint] - data.qpos()[FREE_JOINT + joint];
                         data.ctrl_mut()[joint] = law.command(error);

@@ -122,12 +122,8 @@ pub(super) fn in_regime(robot: &Robot, regime: &Regime) -> Vec<WorldDrive> {
         let servo = match regime.servo {
             Servo::DcMotor(motors) => {
                 let efficiency = motors.gear_efficiency(&robot.control);
-                WorldServo::Motor(DcServo::new(
-                    joint,
-                    efficiency,
-                    motors.stiffness_factor,
-                    limit,
-                ))
+                let motor = DcServo::new(joint, efficiency, motors.stiffness_factor, limit);
+                WorldServo::Motor(motor.with_backlash(motors.backlash))
             }
             Servo::Velocity(law) => WorldServo::Velocity {
                 law,

@@ -252,6 +252,7 @@ mod tests {
             scale: TimeScale::ONE,
             end: End::Cycles(5),
             offsets: None,
+            late: None,
             imu_seed: None,
             detail: Detail::Rows,
         };

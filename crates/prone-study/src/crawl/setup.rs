@@ -163,6 +163,7 @@ impl CrawlSetup {
             scale: self.scale,
             end: self.end,
             offsets: self.offsets.clone(),
+            late: self.late,
             imu_seed: self.imu_seed,
             detail: match self.detail {
                 Detail::Sums => crawl::Detail::Sums,

@@ -48,7 +48,7 @@ pub fn of(
     let joints = motor_summaries(world, gears, effort, metres);
     let (saturated, saturated_joint) = longest_saturated(&joints);
     let (heat_s, work_j) = (effort.heat(robot).ok(), effort.work());
-    let weight = robot.mass() * GRAVITY;
+    let weight = world.mass() * GRAVITY;
     // Nothing where that of a motor is not known.
     let winding_loss_j: Option<f64> = joints.iter().map(|joint| joint.winding_loss_j).sum();
     let shoulders = robot

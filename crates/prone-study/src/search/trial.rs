@@ -66,6 +66,7 @@ pub fn try_out(setting: &Setting, cycle: &Cycle) -> Result<Trial, CrawlError> {
         scale: setting.spec.scale,
         end: End::Cycles(setting.spec.cycles),
         offsets: setting.spec.offsets.clone(),
+        late: setting.spec.late,
         imu_seed: None,
         detail: Detail::Sums,
     };
@@ -113,7 +114,7 @@ fn verdict(setting: &Setting, crawl: &Crawl) -> Option<Verdict> {
 }
 
 fn weight(setting: &Setting) -> f64 {
-    setting.world.robot().mass() * GRAVITY
+    setting.world.mass() * GRAVITY
 }
 
 /// A cost per metre; of what does not advance, infinite.

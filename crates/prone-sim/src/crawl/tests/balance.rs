@@ -91,7 +91,7 @@ impl Audit {
             return;
         };
         let gained = energy(simulation) - energy_before;
-        let mass = simulation.robot().mass();
+        let mass = simulation.world().mass();
         let momentum = mass * (self.velocity(simulation) - velocity_before) / self.seconds;
         let weight = DVec3::new(0.0, 0.0, mass * GRAVITY);
         let force = self.impulse / self.seconds;
@@ -166,10 +166,17 @@ fn plan(gait: &str, cycles: usize) -> CrawlPlan {
         scale: TimeScale::ONE,
         end: End::Cycles(cycles),
         offsets: None,
+        late: None,
         imu_seed: None,
         detail: Detail::Rows,
     }
 }
+
+/// The robot's own motors behind gears with 1° of play.
+const LOOSE: MotorServo = MotorServo {
+    backlash: 0.0175,
+    ..MotorServo::ROBOT
+};
 
 /// The second cycle of a crawl, audited.
 fn audited(world: &World, gait: &str) -> Audit {
@@ -188,7 +195,12 @@ fn audited(world: &World, gait: &str) -> Audit {
 fn identity_energy_closes_and_forces_balance_over_a_cycle() {
     let robot = nao();
     let steps = [0.0025, 0.001];
-    let servos = [MotorServo::SOFT, MotorServo::ROBOT, MotorServo::STIFF];
+    let servos = [
+        MotorServo::SOFT,
+        MotorServo::ROBOT,
+        MotorServo::STIFF,
+        LOOSE,
+    ];
     let gaits = ["thesis-nominal", "low-175", "far-200"];
     let mut cases = Vec::new();
     for time_step in steps {
@@ -204,8 +216,9 @@ fn identity_energy_closes_and_forces_balance_over_a_cycle() {
         let world = World::new(&robot, regime).unwrap();
         let audit = audited(&world, gait);
         let case = format!(
-            "{gait}, {} × K, {} ms",
+            "{gait}, {} × K, {} rad of play, {} ms",
             servo.stiffness_factor,
+            servo.backlash,
             time_step * 1e3
         );
         let (energy, force) = audit.left.unwrap();
@@ -222,6 +235,27 @@ fn identity_energy_closes_and_forces_balance_over_a_cycle() {
             "{case}: {force} N are left over"
         );
     });
+}
+
+/// A robot that is heavier or lighter than its model says, too: its weight is that of the world.
+#[test]
+fn identity_energy_closes_and_forces_balance_with_other_masses() {
+    for mass_factor in [0.9, 1.1] {
+        let regime = Regime {
+            mass_factor,
+            ..Regime::LOCOMOTION.with_motors(LOOSE)
+        };
+        let world = World::new(&nao(), regime).unwrap();
+        let audit = audited(&world, "thesis-nominal");
+        let (energy, force) = audit.left.unwrap();
+        let share = energy / audit.positive;
+        assert!(share.abs() < 0.005, "× {mass_factor}: {share:.5}");
+        let weight = world.mass() * GRAVITY;
+        assert!(
+            force.abs().max_element() < 0.01 * weight,
+            "× {mass_factor}: {force} N are left over"
+        );
+    }
 }
 
 /// A model may damp its joints itself. That is not the motor's torque: energy closes where it is
