@@ -6,7 +6,7 @@ use prone_record::experiment::{
     Experiment, GaitText, PassageCycle, PassageExperiment, PassageSearch, RobotText,
 };
 use prone_record::resumption::Opening;
-use prone_study::search::passage::Passage;
+use prone_study::search::passage::{Candidate, Passage};
 
 use crate::args::passage::UnderArgs;
 use crate::gait::find_cycle;
@@ -31,6 +31,7 @@ fn experiment(args: &UnderArgs) -> Result<PassageExperiment, Failure> {
         };
         Ok(PassageCycle {
             gait: GaitText::new(&source.file, &source.text),
+            called: name.clone(),
             origin: origin.to_owned(),
         })
     });
@@ -38,6 +39,7 @@ fn experiment(args: &UnderArgs) -> Result<PassageExperiment, Failure> {
         cycles: cycles.collect::<Result<_, Failure>>()?,
         robot: RobotText::from_files(&files),
         ceiling_mm: args.ceiling_mm,
+        length_m: args.length_m,
         margin_mm: args.margin_mm,
         search: args.seed.map(|seed| PassageSearch {
             seed,
@@ -62,36 +64,94 @@ pub(crate) fn plan(args: &UnderArgs) -> Result<Plan, Failure> {
 
 /// The answer, what limits it, and every cycle that was tried.
 pub(crate) fn print(passage: &Passage, searched: bool, out: &mut dyn Write) -> std::io::Result<()> {
-    let ceiling = passage.ceiling_mm;
-    match &passage.best {
-        Some(best) => {
-            writeln!(out, "{ceiling} mm: feasible with {}", best.gait)?;
-            writeln!(
-                out,
-                "  {:.1} mm to spare ({} mm asked), {:.1} mm per cycle, {:.1} mm/s",
-                best.left_mm, passage.margin_mm, best.mm_per_cycle, best.mm_per_s
-            )?;
-            writeln!(
-                out,
-                "  largest torque {:.2} of the manufacturer's limit ({})",
-                best.peak_torque_over_rated, best.peak_joint
-            )?;
-        }
-        None => writeln!(out, "{ceiling} mm: not feasible")?,
+    let (ceiling, length) = (passage.ceiling_mm, passage.length_m);
+    let under = format!("{ceiling} mm over {length} m");
+    match (&passage.gait, passage.robust) {
+        (Some(gait), true) => writeln!(
+            out,
+            "{under}: crawl with {gait}; it gets through in all {} corners",
+            passage.corners
+        )?,
+        (Some(gait), false) => writeln!(
+            out,
+            "{under}: only as in the model, with {gait}; no cycle gets through in all {} corners",
+            passage.corners
+        )?,
+        (None, _) if passage.impossible => writeln!(out, "{under}: impossible")?,
+        (None, _) => writeln!(out, "{under}: none found")?,
+    }
+    let named = passage.gait.as_ref();
+    let named = named.and_then(|gait| passage.candidates.iter().find(|it| it.gait == *gait));
+    if let Some(named) = named {
+        print_named(passage, named, out)?;
     }
     writeln!(out, "  limited by {}", passage.limited_by)?;
-    for tried in &passage.tried {
-        writeln!(
-            out,
-            "    {:<18}{:>7.1} mm high ({}), {:>6.1} mm per cycle, {:>5.1} mm/s",
-            tried.gait, tried.top_mm, tried.top_part, tried.mm_per_cycle, tried.mm_per_s
-        )?;
-    }
+    print_candidates(passage, out)?;
     for (gait, reason) in &passage.refused {
         writeln!(out, "    {gait}: cannot be crawled: {reason}")?;
     }
     if !searched && passage.may_be_searched() {
-        writeln!(out, "  --seed 1 searches for a lower one")?;
+        writeln!(out, "  --seed 1 searches for one")?;
+    }
+    Ok(())
+}
+
+fn print_named(passage: &Passage, named: &Candidate, out: &mut dyn Write) -> std::io::Result<()> {
+    writeln!(
+        out,
+        "  {:.1} s, {:.1} mm/s, {:.1} mm per cycle ({:.1} in the worst run), {:.1} mm to spare (in the worst run)",
+        named.time_s, named.mm_per_s, named.mm_per_cycle, named.worst_mm_per_cycle, named.margin_mm
+    )?;
+    let steers = if named.steers {
+        "steered where the ground is uneven"
+    } else {
+        "cannot be steered"
+    };
+    let verdict = named.verdict.as_deref().unwrap_or("unknown");
+    writeln!(
+        out,
+        "  {steers}; at most {:.0} mm off the line; on a robot's motors: {verdict}",
+        named.drift_mm
+    )?;
+    let steering = if named.steers { " --heading-hold" } else { "" };
+    writeln!(
+        out,
+        "  prone crawl run {} --ceiling-mm {} --length-m {} --until-past{steering}",
+        named.gait, passage.ceiling_mm, passage.length_m
+    )
+}
+
+fn print_candidates(passage: &Passage, out: &mut dyn Write) -> std::io::Result<()> {
+    if passage.candidates.is_empty() {
+        return Ok(());
+    }
+    writeln!(
+        out,
+        "\n  {:<18}{:>8}{:>9}{:>8}{:>8}  {:<15}{:>8}  corners",
+        "cycle", "s", "mm/cycle", "mm/s", "top mm", "motors", "head N"
+    )?;
+    for it in &passage.candidates {
+        let corners = match (&it.obstructed, &it.failed, it.robust) {
+            (Some(reason), _, _) => format!("not tried: {reason}"),
+            (None, Some(failed), _) => format!("{}: {}", failed.corner, failed.reason),
+            (None, None, Some(_)) => format!("all {}", it.corners_passed),
+            (None, None, None) => "not tried: a faster one gets through".to_owned(),
+        };
+        let time = if it.passes {
+            format!("{:.1}", it.time_s)
+        } else {
+            "–".to_owned()
+        };
+        writeln!(
+            out,
+            "  {:<18}{time:>8}{:>9.1}{:>8.1}{:>8.1}  {:<15}{:>8.0}  {corners}",
+            it.gait,
+            it.mm_per_cycle,
+            it.mm_per_s,
+            it.open_top_mm,
+            it.verdict.as_deref().unwrap_or("unknown"),
+            it.head_n
+        )?;
     }
     Ok(())
 }

@@ -22,8 +22,8 @@ pub use crawl::{
 pub use limit::Limit;
 pub use passage::{PassageCycle, PassageExperiment, PassageSearch};
 pub use search::{
-    CycleRulesChoice, CycleSearchExperiment, Ends, GaitForm, LeastDuty, NamedGait, PullSearchExperiment, Runs,
-    Under, check_heights,
+    CycleRulesChoice, CycleSearchExperiment, Ends, GaitForm, LeastDuty, NamedGait,
+    PullSearchExperiment, Runs, Under, check_heights,
 };
 pub use source::{ChangedText, GaitText, RobotText, SceneText, TextError, TextFile};
 pub use torque_map::{MapSource, TorqueMapExperiment};

@@ -50,6 +50,8 @@ pub struct CrawlPlan {
     pub scale: TimeScale,
     /// When it ends.
     pub end: End,
+    /// What a touch of an obstacle does.
+    pub on_touch: OnTouch,
     /// What every commanded angle is off by, rad: joints are not calibrated exactly.
     pub offsets: Option<JointAngles>,
     /// How late commands reach the servos, where they do.
@@ -72,6 +74,15 @@ pub enum End {
         /// How many at most.
         at_most: usize,
     },
+}
+
+/// What it does to a crawl that the robot touches a plate, a leg or a panel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OnTouch {
+    /// Nothing: it is counted.
+    GoOn,
+    /// The crawl ends there, without having arrived.
+    End,
 }
 
 /// What is kept of a crawl.
@@ -247,6 +258,7 @@ pub fn proceed<P: Pilot>(
     let mut metered = Metered {
         meter: Meter::new(robot.simulation(), plan.detail),
         end: plan.end,
+        on_touch: plan.on_touch,
         stopped,
         was_stopped: false,
         arrived: false,
@@ -295,6 +307,7 @@ fn in_simulation((cycle, gait): (usize, String), error: PortError) -> CrawlError
 struct Metered<'a> {
     meter: Meter,
     end: End,
+    on_touch: OnTouch,
     stopped: &'a dyn Fn() -> bool,
     was_stopped: bool,
     arrived: bool,
@@ -309,6 +322,9 @@ impl<P: Pilot> Watch<SimulatedRobot, P> for Metered<'_> {
     ) -> Option<Halt> {
         if (self.stopped)() {
             self.was_stopped = true;
+            return Some(Halt::AtOnce);
+        }
+        if self.on_touch == OnTouch::End && self.meter.has_touched() {
             return Some(Halt::AtOnce);
         }
         let End::Past { x, .. } = self.end else {

@@ -21,7 +21,7 @@ use prone::regime::Regime;
 use prone_files::{cycle_file, gait_file};
 use prone_record::crawl_summary::CrawlSummary;
 use prone_record::experiment::{
-    CrawlExperiment, Detail, Experiment, PassageExperiment, PullExperiment, check_heights,
+    CrawlExperiment, Detail, Experiment, Limit, PassageExperiment, PullExperiment, check_heights,
 };
 use prone_record::lock::Lock;
 use prone_record::output::{self, Artefacts};
@@ -39,11 +39,10 @@ use crate::crawl::pull::PullRecording;
 use crate::crawl::record::{self, Recording};
 use crate::crawl::{self, CrawlRunError, CrawlSetup, summary};
 use crate::pulls::pull_record;
-use crate::search::passage::{self, Passage};
+use crate::search::passage::{self, Offered, Passage, Plates, Under};
 use crate::search::room::NoRoom;
 use crate::search::run::Done;
-use crate::search::settings;
-use crate::watch::Watch;
+use crate::watch::{Progress, Watch};
 
 pub use error::RunError;
 pub use search::CostOutcome;
@@ -267,43 +266,67 @@ impl Session {
         let (ceiling_mm, margin_mm) = (experiment.ceiling_mm, experiment.margin_mm);
         check_heights(ceiling_mm, margin_mm)?;
         NoRoom::check(ceiling_mm, margin_mm)?;
+        let lengths = PassageExperiment::LENGTHS_M;
+        Limit::check("a plate", " m", experiment.length_m, lengths)?;
         if let Some(place) = &self.place {
             single_file::check_place(&place.path).map_err(RunError::PlaceOfFile)?;
         }
         let robot = LoadedRobot::load(experiment.robot.files()?)?;
-        let sources = experiment.cycles.iter();
-        let sources = sources.map(|it| Ok((it.gait.parse(cycle_file::parse)?, &*it.origin)));
-        let sources: Vec<(Cycle, &str)> = sources.collect::<Result<_, RunError>>()?;
-        let settings = settings::for_advance(&robot)?;
-        let (ceiling, margin) = (ceiling_mm * 1e-3, margin_mm * 1e-3);
-        let tried = sources.iter().map(|(cycle, origin)| (cycle, *origin));
-        let mut passage =
-            Passage::try_all(robot.robot(), &settings[0], tried, ceiling, margin, watch);
+        let cycles = experiment.cycles.iter();
+        let cycles = cycles.map(|it| it.gait.parse(cycle_file::parse));
+        let mut cycles: Vec<Cycle> = cycles.collect::<Result<_, _>>()?;
+        let under = Under {
+            height: ceiling_mm * 1e-3,
+            length: experiment.length_m,
+            margin: margin_mm * 1e-3,
+        };
+        let plates = Plates::new(&robot, under)?;
+        let pool = self.pool()?;
+        watch.progress(&Progress::Simulating(cycles.len()));
+        let mut passage = {
+            let offered = experiment.cycles.iter().zip(&cycles);
+            let offered = offered.map(|(asked, cycle)| Offered {
+                cycle,
+                called: &asked.called,
+                origin: &asked.origin,
+            });
+            let offered: Vec<Offered<'_>> = offered.collect();
+            pool.install(|| Passage::answer(&plates, &offered, watch))
+        };
         if watch.stop() {
             return Err(RunError::Stopped);
         }
-        let mut cycles: Vec<Cycle> = sources.into_iter().map(|(cycle, _)| cycle).collect();
         if let (Some(asked), true) = (experiment.search, passage.may_be_searched()) {
-            let searched = passage::candidates(&robot, &cycles, ceiling - margin)?;
-            let pool = self.pool()?;
-            cycles.extend(pool.install(|| passage.search(asked, &searched, ceiling_mm, watch))?);
+            let searched = passage::candidates(&robot, &cycles, under.height - under.margin)?;
+            let found = pool.install(|| passage::search(asked, &searched, ceiling_mm, watch))?;
+            if let Some(cycle) = found {
+                let offered = Offered {
+                    cycle: &cycle,
+                    called: &cycle.name,
+                    origin: "searched",
+                };
+                pool.install(|| passage.take(&plates, &[offered], watch));
+                cycles.push(cycle);
+            }
         }
-        // What was searched last is the one of its name.
-        let best = passage.best.as_ref();
-        let cycle = best.and_then(|best| {
-            let mut last_first = cycles.into_iter().rev();
-            last_first.find(|cycle| cycle.name == best.gait)
+        let called = experiment.cycles.iter().map(|it| it.called.as_str());
+        let called: Vec<&str> = called.chain(["searched"]).collect();
+        let gait = passage.gait.as_deref();
+        let cycle = gait.and_then(|gait| {
+            let place = called.iter().position(|called| *called == gait);
+            place.and_then(|place| cycles.get(place)).or(cycles.last())
         });
+        let cycle = cycle.cloned();
         uninterrupted(watch, || {
             let found = self
                 .place
                 .as_ref()
-                .zip(passage.best.as_ref())
+                .zip(passage.candidates.first())
                 .zip(cycle.as_ref());
             found.map_or(Ok(()), |((place, best), cycle)| {
                 let header = format!(
                     "Passes {ceiling_mm} mm with {:.1} mm to spare, {:.1} mm per cycle (prone crawl under).",
-                    best.left_mm, best.mm_per_cycle
+                    best.margin_mm, best.mm_per_cycle
                 );
                 let text = cycle_file::write(cycle, &header);
                 let written = single_file::write(&place.path, text.as_bytes());

@@ -8,7 +8,7 @@ use prone::crawl::Straight;
 use prone::gait::cycle::TimeScale;
 use prone::regime::Regime;
 use prone::scene::Scene;
-use prone_sim::crawl::{self, Crawl, CrawlPlan, Detail, End};
+use prone_sim::crawl::{self, Crawl, CrawlPlan, Detail, End, OnTouch};
 use prone_sim::{LoadedRobot, World};
 
 use crate::published::{TABLE_CRAWLS, TableCrawl};
@@ -97,6 +97,7 @@ fn experiment(
         offsets: None,
         late: None,
         imu_seed: None,
+        on_touch: OnTouch::GoOn,
         detail: Detail::Rows,
     };
     let stopped = || watch.stop();

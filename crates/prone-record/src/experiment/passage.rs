@@ -14,7 +14,9 @@ pub struct PassageExperiment {
     pub cycles: Vec<PassageCycle>,
     /// Height of the ceiling above the floor, mm.
     pub ceiling_mm: f64,
-    /// Distance that has to stay between robot and ceiling, mm.
+    /// How long the plate is, m, within [`PassageExperiment::LENGTHS_M`].
+    pub length_m: f64,
+    /// Distance that has to stay between robot and ceiling where everything is as in the model, mm.
     pub margin_mm: f64,
     /// Whether one is searched where none fits.
     pub search: Option<PassageSearch>,
@@ -26,8 +28,15 @@ pub struct PassageExperiment {
 pub struct PassageCycle {
     /// Its file.
     pub gait: GaitText,
+    /// As it was called: a name or a path.
+    pub called: String,
     /// `shipped` or `file`.
     pub origin: String,
+}
+
+impl PassageExperiment {
+    /// Shortest and longest plate, m.
+    pub const LENGTHS_M: (f64, f64) = (0.1, 20.0);
 }
 
 /// A search of a lower cycle.

@@ -216,6 +216,11 @@ impl Meter {
         });
     }
 
+    /// Whether the robot has touched an obstacle so far.
+    pub(super) fn has_touched(&self) -> bool {
+        self.touches.any()
+    }
+
     pub(super) fn end_pull(&mut self, simulation: &Simulation) {
         if let Some(cycle) = &mut self.cycle {
             cycle.pulled = Bearing::of_prone(&simulation.ground_from_root());

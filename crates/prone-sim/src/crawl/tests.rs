@@ -27,6 +27,7 @@ fn crawl(world: &World, cycle: &str, cycles: usize, turn: f64) -> Crawl {
         offsets: None,
         late: None,
         imu_seed: None,
+        on_touch: OnTouch::GoOn,
         detail: Detail::Sums,
     };
     run(world, &plan, Straight { turn }).unwrap()
@@ -81,6 +82,7 @@ fn a_low_plate_is_touched_and_the_floor_carries_the_rest() {
             offsets: None,
             late: None,
             imu_seed: None,
+            on_touch: OnTouch::GoOn,
             detail: Detail::Rows,
         };
         run(&world, &plan, hold(0.2)).unwrap()
@@ -140,6 +142,7 @@ fn felt(degrees: f64) -> (Vec<f64>, Vec<String>) {
         offsets: None,
         late: None,
         imu_seed: Some(1),
+        on_touch: OnTouch::GoOn,
         detail: Detail::Sums,
     };
     let mut pilot = SlopeAware::new(Straight::default(), 4.0_f64.to_radians());
@@ -182,6 +185,7 @@ fn off_the_line(cycle: &str, pilot: impl Pilot) -> f64 {
         offsets: None,
         late: None,
         imu_seed: None,
+        on_touch: OnTouch::GoOn,
         detail: Detail::Sums,
     };
     let crawl = run(&world, &plan, pilot).unwrap();
@@ -215,6 +219,7 @@ fn a_heading_is_reached_without_overshoot() {
         offsets: None,
         late: None,
         imu_seed: None,
+        on_touch: OnTouch::GoOn,
         detail: Detail::Sums,
     };
     let heading = 45.0_f64.to_radians();
@@ -377,6 +382,7 @@ fn steady(cycles: usize) -> CrawlPlan {
         offsets: None,
         late: None,
         imu_seed: None,
+        on_touch: OnTouch::GoOn,
         detail: Detail::Sums,
     }
 }

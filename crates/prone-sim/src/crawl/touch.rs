@@ -108,6 +108,11 @@ impl Touches {
         });
     }
 
+    /// Whether it has met anything so far.
+    pub(super) fn any(&self) -> bool {
+        !self.met.is_empty()
+    }
+
     pub(super) fn finish(self) -> Vec<Touch> {
         self.met.into_values().map(|(touch, _)| touch).collect()
     }

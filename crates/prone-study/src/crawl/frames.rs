@@ -237,7 +237,7 @@ mod tests {
     use prone::gait::cycle::TimeScale;
     use prone::regime::Regime;
     use prone_files::shipped;
-    use prone_sim::crawl::{self, CrawlPlan, Detail, End};
+    use prone_sim::crawl::{self, CrawlPlan, Detail, End, OnTouch};
     use prone_sim::{LoadedRobot, RobotFiles};
 
     use super::*;
@@ -254,6 +254,7 @@ mod tests {
             offsets: None,
             late: None,
             imu_seed: None,
+            on_touch: OnTouch::GoOn,
             detail: Detail::Rows,
         };
         let crawl = crawl::run(&world, &plan, Straight { turn: 0.0 }).unwrap();

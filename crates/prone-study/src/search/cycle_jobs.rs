@@ -20,12 +20,12 @@ use prone_sim::LoadedRobot;
 use prone_sim::crawl::CrawlError;
 
 use super::cycle_cost::{CycleAim, CycleCostError, CycleSearch, Merge};
+use super::cycle_form::Free;
 use super::cycle_rules::CycleRules;
 use super::room::{NoRoom, too_low};
 use super::run::Job;
 use super::setting::Setting;
-use super::cycle_form::Free;
-use super::settings::{self, Corners, SettingError};
+use super::settings::{self, SettingError};
 use super::trial::{Trial, try_out};
 use crate::watch::Watch;
 
@@ -117,12 +117,7 @@ pub fn jobs(
     let from: Vec<Cycle> = from.collect::<Result<_, _>>()?;
     let ceilings = ceilings(&experiment.under);
     check(experiment, &ceilings, robot.robot())?;
-    let corners = if experiment.ideal {
-        Corners::None
-    } else {
-        Corners::Searched
-    };
-    let mut searched = settings::for_search(objective, robot, corners)?;
+    let mut searched = settings::for_search(objective, robot)?;
     let (least, most) = CycleSearchExperiment::REACH;
     Limit::check("a reach", "", experiment.reach, (least, most))?;
     let free = Free {
@@ -131,6 +126,9 @@ pub fn jobs(
     };
     if experiment.steerable {
         searched.extend(settings::for_steering(robot)?);
+    }
+    if !experiment.ideal {
+        searched.extend(settings::searched_corners(robot)?);
     }
     let searched: Arc<[Setting]> = searched.into();
     let (merge, asked) = match &experiment.under {
@@ -264,7 +262,8 @@ fn check(
         }
     }
     for ceiling in ceilings {
-        if let (Some(ceiling_mm), Some(reason)) = (ceiling.mm, too_low(robot, ceiling.height)) {
+        let reason = ceiling.mm.and_then(|mm| too_low(robot, mm * 1e-3));
+        if let (Some(ceiling_mm), Some(reason)) = (ceiling.mm, reason) {
             return Err(CycleSearchError::TooLow {
                 ceiling_mm,
                 robot: robot.name.clone(),

@@ -123,7 +123,6 @@ impl Role {
     pub fn misdirected(self, trial: &Trial) -> f64 {
         match self {
             Self::Turn(angle) => below(trial.yaw, angle),
-            Self::Straight { yaw, .. } => above(trial.yaw.abs(), yaw),
             Self::Value | Self::Keep(_) | Self::Beside => 0.0,
         }
     }

@@ -1,27 +1,34 @@
 //! Whether a robot gets under a ceiling, with which cycle, and what limits it.
+//!
+//! Every cycle is crawled under a plate of the ceiling's height, from before it until the robot has come
+//! out behind it, first as everything is in the model. Those that get through without touching anything,
+//! and stay below the ceiling by the margin, go, the fastest first, through all of the
+//! [`corners`](super::corners) under the same plate, where they have to get through too; a cycle stops at
+//! the first in which it does not. The answer is the first one that gets through all of them, and where
+//! none does the fastest that passes as things are in the model, called that.
+//!
+//! That nothing at all can pass is said only where the shapes of the robot prove it (`too_low`).
 
-use std::ops::ControlFlow;
-use std::sync::Arc;
+mod attempt;
+mod candidate;
+mod search;
+
+pub use candidate::{Candidate, FailedCorner};
+pub use search::{candidates, search};
 
 use prone::gait::cycle::Cycle;
-use prone::robot::Robot;
-use prone_record::experiment::PassageSearch;
-use prone_record::frontier::CycleObjective;
-use prone_record::search::{Search, SearchEnd, Solver};
+use prone::scene::Scene;
 use prone_sim::LoadedRobot;
+use rayon::prelude::*;
 use serde::Serialize;
 
-use super::candidates::Searched;
-use super::candidates::{Candidates as _, Depth};
-use super::cycle_cost::{CycleAim, CycleSearch, Merge};
-use super::cycle_jobs::{self, CycleSearchError};
+use super::corners::{self, Asked, Corner};
 use super::room::too_low;
-use super::run::SearchError;
-use super::setting::Setting;
-use super::settings;
-use super::trial::{Trial, try_out};
+use super::setting::{HOLDS, Role, Setting};
+use super::settings::{self, SettingError};
+use super::trial::try_out;
 use crate::watch::{Progress, Watch};
-use prone_optim::Threads;
+use attempt::{Attempt, Way, attempt};
 
 /// An answer.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -30,225 +37,274 @@ pub struct Passage {
     pub robot: String,
     /// Height of the ceiling above the floor, mm.
     pub ceiling_mm: f64,
-    /// Distance that has to stay between robot and ceiling, mm.
-    pub margin_mm: f64,
-    /// Whether there is a cycle.
+    /// How long the plate is, m.
+    pub length_m: f64,
+    /// Distance that was asked to stay between robot and ceiling, mm, where everything is as in the
+    /// model.
+    pub asked_margin_mm: f64,
+    /// Whether some cycle gets through where everything is as in the model.
     pub feasible: bool,
-    /// The fastest one, where there is.
-    pub best: Option<Tried>,
+    /// Whether [`Self::gait`] gets through in all corners too.
+    pub robust: bool,
+    /// Whether the shapes of the robot prove that nothing can pass.
+    pub impossible: bool,
+    /// The cycle to crawl with: what `prone crawl run --gait` takes.
+    pub gait: Option<String>,
     /// Where it comes from: `shipped`, `file` or `searched`.
     pub found_by: Option<String>,
+    /// How long it takes from before the plate to behind it, s.
+    pub time_s: Option<f64>,
+    /// Least distance between robot and ceiling, mm, over all runs of it.
+    pub margin_mm: Option<f64>,
+    /// Whether it can be steered.
+    pub steers: Option<bool>,
+    /// Farthest from the line of the start, mm, at the end of any cycle of all its runs.
+    pub drift_mm: Option<f64>,
+    /// Whether the motors of a robot can do it: `continuous`, `limited`, `not on a robot`.
+    pub verdict: Option<String>,
     /// What limits it: the part of the body that comes nearest to the ceiling, or why there is none.
     pub limited_by: String,
-    /// Every cycle that was tried.
-    pub tried: Vec<Tried>,
+    /// How many corners there are.
+    pub corners: usize,
+    /// Every cycle that was tried, those that pass first, by the time that they take.
+    pub candidates: Vec<Candidate>,
     /// Cycles that this robot cannot crawl, with the reason.
     pub refused: Vec<(String, String)>,
 }
 
-/// A cycle and what it came to.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Tried {
-    /// Its name.
-    pub gait: String,
-    /// Highest point of the robot, mm.
-    pub top_mm: f64,
-    /// Part of the body that reaches it.
-    pub top_part: String,
-    /// What is left below the ceiling, mm; negative where it does not fit.
-    pub left_mm: f64,
-    /// Advance per cycle, mm.
-    pub mm_per_cycle: f64,
-    /// Speed, mm/s.
-    pub mm_per_s: f64,
-    /// Largest applied torque over the manufacturer's effort limit.
-    pub peak_torque_over_rated: f64,
-    /// Name of the joint that reaches it.
-    pub peak_joint: String,
+/// A cycle, and where it comes from.
+#[derive(Debug, Clone, Copy)]
+pub struct Offered<'a> {
+    /// The cycle.
+    pub cycle: &'a Cycle,
+    /// What `prone crawl run --gait` takes for it.
+    pub called: &'a str,
+    /// `shipped`, `file` or `searched`.
+    pub origin: &'a str,
+}
+
+/// A ceiling over some length.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Under {
+    /// Its height above the floor, m.
+    pub height: f64,
+    /// Its length, m.
+    pub length: f64,
+    /// Distance that has to stay between robot and ceiling where everything is as in the model, m.
+    pub margin: f64,
+}
+
+/// The settings of a passage: a plate in each.
+#[derive(Debug)]
+pub struct Plates {
+    under: Under,
+    /// On open ground, as everything is in the model.
+    open: Setting,
+    /// The same before the plate.
+    ideal: Setting,
+    corners: Vec<(Corner, Setting)>,
+}
+
+impl Plates {
+    /// Puts a robot before plates.
+    ///
+    /// # Errors
+    /// [`SettingError`] where the engine refuses a model.
+    pub fn new(robot: &LoadedRobot, under: Under) -> Result<Self, SettingError> {
+        let scene = Scene::under_plate(under.height, under.length);
+        let asked = Asked {
+            cycles: 1,
+            role: Role::Keep(HOLDS),
+        };
+        let each = corners::all().zip(corners::settings(robot, &scene, corners::all(), asked)?);
+        Ok(Self {
+            under,
+            open: settings::as_it_is(robot, Scene::level())?,
+            ideal: settings::as_it_is(robot, scene)?,
+            corners: each.collect(),
+        })
+    }
+
+    fn way(&self, advance: f64) -> Way {
+        Way::under(self.ideal.world.robot(), self.under.length, advance)
+    }
 }
 
 impl Passage {
-    /// Tries cycles, each with where it comes from, under a ceiling, m, with a margin, m; none is
-    /// crawled where not even a foot fits, and none after the watch said stop.
-    pub fn try_all<'a>(
-        robot: &Robot,
-        setting: &Setting,
-        cycles: impl IntoIterator<Item = (&'a Cycle, &'a str)>,
-        ceiling: f64,
-        margin: f64,
-        watch: &dyn Watch,
-    ) -> Self {
+    /// Tries cycles under a ceiling on the current rayon pool. None is crawled where the shapes prove that
+    /// nothing passes; none after the watch said stop.
+    pub fn answer(plates: &Plates, offered: &[Offered<'_>], watch: &dyn Watch) -> Self {
+        let robot = plates.ideal.world.robot();
+        let under = plates.under;
         let mut passage = Self {
             robot: robot.name.clone(),
-            ceiling_mm: ceiling * 1e3,
-            margin_mm: margin * 1e3,
+            ceiling_mm: millimetres(under.height),
+            length_m: under.length,
+            asked_margin_mm: millimetres(under.margin),
             feasible: false,
-            best: None,
+            robust: false,
+            impossible: false,
+            gait: None,
             found_by: None,
+            time_s: None,
+            margin_mm: None,
+            steers: None,
+            drift_mm: None,
+            verdict: None,
             limited_by: String::new(),
-            tried: Vec::new(),
+            corners: plates.corners.len(),
+            candidates: Vec::new(),
             refused: Vec::new(),
         };
-        if let Some(reason) = too_low(robot, ceiling - margin) {
+        if let Some(reason) = too_low(robot, under.height) {
+            passage.impossible = true;
             passage.limited_by = reason;
             return passage;
         }
-        for (cycle, origin) in cycles.into_iter().take_while(|_| !watch.stop()) {
-            match try_out(setting, cycle) {
-                Ok(trial) => passage.take(Tried::from_trial(cycle, &trial, ceiling), origin),
-                Err(error) => {
-                    let name = cycle.name.clone();
-                    passage.refused.push((name, error.to_string()));
-                }
-            }
-        }
+        passage.take(plates, offered, watch);
         passage
     }
 
-    /// Takes one more cycle into account.
-    pub fn take(&mut self, tried: Tried, found_by: &str) {
-        let fits = tried.left_mm >= self.margin_mm && tried.mm_per_cycle > 0.0;
-        let faster = self
-            .best
-            .as_ref()
-            .is_none_or(|best| tried.mm_per_s > best.mm_per_s);
-        if fits && (faster || !self.feasible) {
-            self.feasible = true;
-            self.found_by = Some(found_by.to_owned());
-            self.best = Some(tried.clone());
-            self.limited_by = format!(
-                "{}, whose highest point is {:.1} mm below the ceiling",
-                tried.top_part, tried.left_mm
-            );
+    /// Takes more cycles into account.
+    pub fn take(&mut self, plates: &Plates, offered: &[Offered<'_>], watch: &dyn Watch) {
+        let ideal: Vec<_> = offered
+            .par_iter()
+            .map(|it| (it, ideal(plates, it, watch)))
+            .collect();
+        let mut passing = Vec::new();
+        for (offered, tried) in ideal {
+            match tried {
+                Ok((candidate, run)) => {
+                    passing.extend(candidate.passes.then_some((offered, run)));
+                    self.candidates.push(candidate);
+                }
+                Err(reason) => self.refused.push((offered.called.to_owned(), reason)),
+            }
         }
-        self.tried.push(tried);
-        if !self.feasible {
-            let lowest = self
-                .tried
-                .iter()
-                .min_by(|a, b| a.top_mm.total_cmp(&b.top_mm));
-            self.limited_by = lowest.map_or_else(String::new, |lowest| {
+        let order = |run: &Attempt| run.seconds;
+        passing.sort_by(|(_, a), (_, b)| order(a).total_cmp(&order(b)));
+        for (offered, run) in passing {
+            if self.robust || watch.stop() {
+                break;
+            }
+            let name = offered.called;
+            let Some(candidate) = self.candidates.iter_mut().find(|it| it.gait == name) else {
+                continue;
+            };
+            through_corners(plates, offered.cycle, &run, candidate, watch);
+            if candidate.robust == Some(true) {
+                self.robust = true;
+            }
+        }
+        self.candidates.sort_by(Candidate::order);
+        self.conclude();
+    }
+
+    /// Names the answer among the candidates.
+    fn conclude(&mut self) {
+        let robust = self.candidates.iter().find(|it| it.robust == Some(true));
+        let named = robust.or_else(|| self.candidates.iter().find(|it| it.passes));
+        self.feasible = named.is_some();
+        self.robust = robust.is_some();
+        let Some(named) = named else {
+            self.limited_by = self.nothing_found();
+            return;
+        };
+        self.limited_by = if self.robust {
+            format!(
+                "the {}, {:.1} mm below the ceiling at the closest",
+                named.top_part, named.margin_mm
+            )
+        } else {
+            named.failure()
+        };
+        self.gait = Some(named.gait.clone());
+        self.found_by = Some(named.found_by.clone());
+        self.time_s = Some(named.time_s);
+        self.margin_mm = Some(named.margin_mm);
+        self.steers = Some(named.steers);
+        self.drift_mm = Some(named.drift_mm);
+        self.verdict.clone_from(&named.verdict);
+    }
+
+    fn nothing_found(&self) -> String {
+        let lowest = self.candidates.iter();
+        let lowest = lowest.min_by(|a, b| a.open_top_mm.total_cmp(&b.open_top_mm));
+        lowest.map_or_else(
+            || "no cycle could be crawled".to_owned(),
+            |lowest| {
                 format!(
                     "the {}: {:.1} mm high in {}, the lowest cycle tried, and {:.1} mm are left",
-                    lowest.top_part,
-                    lowest.top_mm,
+                    lowest.open_top_part,
+                    lowest.open_top_mm,
                     lowest.gait,
-                    self.ceiling_mm - self.margin_mm
+                    self.ceiling_mm - self.asked_margin_mm
                 )
-            });
-        }
+            },
+        )
     }
 
-    /// Whether a search may still find one: nothing fits, but the foot does.
-    pub fn may_be_searched(&self) -> bool {
-        !self.feasible && !self.tried.is_empty()
-    }
-}
-
-impl Tried {
-    /// What a cycle came to under a ceiling, m.
-    pub fn from_trial(cycle: &Cycle, trial: &Trial, ceiling: f64) -> Self {
-        Self {
-            gait: cycle.name.clone(),
-            top_mm: trial.top.0 * 1e3,
-            top_part: trial.top.1.name().to_owned(),
-            left_mm: (ceiling - trial.top.0) * 1e3,
-            mm_per_cycle: trial.advance * 1e3,
-            mm_per_s: trial.advance / trial.seconds * 1e3,
-            peak_torque_over_rated: trial.peak_over_limit.0,
-            peak_joint: trial.peak_over_limit.1.clone(),
-        }
+    /// Whether a search may still find one: nothing passes, and nothing proves that nothing can.
+    pub const fn may_be_searched(&self) -> bool {
+        !self.feasible && !self.impossible
     }
 }
 
-/// What is searched where no cycle fits: about the one that fits best under a height, m.
-pub fn candidates(
-    robot: &LoadedRobot,
-    cycles: &[Cycle],
-    height: f64,
-) -> Result<CycleSearch, CycleSearchError> {
-    let objective = CycleObjective::Advance;
-    let settings: Arc<[Setting]> = settings::for_search(objective, robot)?.into();
-    let base = cycle_jobs::base(robot, &settings[0], cycles, height)?;
-    let aim = CycleAim {
-        objective,
-        merge: Merge::Mean,
-        rules: cycle_jobs::usual_rules(objective, height, base, robot.robot()),
-    };
-    Ok(CycleSearch::new(robot.robot(), &settings, aim, base)?)
+/// Crawls a cycle on open ground, for its height, and under the plate as everything is in the model.
+fn ideal(
+    plates: &Plates,
+    offered: &Offered<'_>,
+    watch: &dyn Watch,
+) -> Result<(Candidate, Attempt), String> {
+    let (cycle, under) = (offered.cycle, plates.under);
+    let trial = try_out(&plates.open, cycle).map_err(|error| error.to_string())?;
+    let stopped = || watch.stop();
+    let run = attempt(&plates.ideal, cycle, plates.way(trial.advance), &stopped);
+    let run = run.map_err(|error| error.to_string())?;
+    watch.progress(&Progress::Done(1));
+    let candidate = Candidate::new(offered, &trial, &run, under);
+    Ok((candidate, run))
 }
 
-impl Passage {
-    /// Searches a cycle that fits under the ceiling, and takes it into account. Nothing where the
-    /// budget is too small.
-    pub fn search(
-        &mut self,
-        asked: PassageSearch,
-        searched: &CycleSearch,
-        ceiling_mm: f64,
-        watch: &dyn Watch,
-    ) -> Result<Option<Cycle>, SearchError> {
-        let mut search = Search::new(Solver::AboutTheMiddle, asked.seed, 1, asked.budget);
-        let end = search.proceed(&Threads(Searched(searched)), |search| {
-            watch.progress(&Progress::Searching(search));
+/// Crawls a cycle through the corners, so many at once as there are threads, until it fails in one.
+fn through_corners(
+    plates: &Plates,
+    cycle: &Cycle,
+    ideal: &Attempt,
+    candidate: &mut Candidate,
+    watch: &dyn Watch,
+) {
+    let way = plates.way(ideal.advance);
+    let stopped = || watch.stop();
+    let mut got_through = 0;
+    for some in plates.corners.chunks(rayon::current_num_threads().max(1)) {
+        let runs: Vec<_> = some
+            .par_iter()
+            .map(|(_, setting)| attempt(setting, cycle, way, &stopped))
+            .collect();
+        // What comes after the first that fails is not looked at, so that the number of threads does
+        // not matter.
+        for ((corner, _), run) in some.iter().zip(runs) {
             if watch.stop() {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
+                return;
             }
-        });
-        if end == SearchEnd::Interrupted {
-            return Err(SearchError::Stopped);
+            if let Err(failed) = candidate.add(*corner, run, plates.under) {
+                candidate.failed = Some(failed);
+                candidate.robust = Some(false);
+                candidate.corners_passed = got_through;
+                return;
+            }
+            got_through += 1;
         }
-        let Some((_, best)) = search.best() else {
-            return Ok(None);
-        };
-        let mut cycle = searched.gait(&best.point)?;
-        let cost = searched.cost(&cycle, Depth::Everything);
-        let ceiling_name = ceiling_mm.to_string().replace('.', "-");
-        cycle.name = format!("under-{ceiling_name}-seed-{}", asked.seed);
-        let Some(trial) = cost.trials.first() else {
-            return Ok(None);
-        };
-        let tried = Tried::from_trial(&cycle, trial, ceiling_mm * 1e-3);
-        self.take(tried, "searched");
-        Ok(Some(cycle))
     }
+    candidate.robust = Some(true);
+    candidate.corners_passed = got_through;
+}
+
+/// A length in mm, to the micrometre: what was typed comes back as it was typed.
+fn millimetres(metres: f64) -> f64 {
+    (metres * 1e6).round() / 1e3
 }
 
 #[cfg(test)]
-mod tests {
-    use prone_files::shipped;
-    use prone_sim::{LoadedRobot, RobotFiles};
-
-    use super::*;
-    use crate::watch::Unwatched;
-
-    #[test]
-    fn reference_the_foot_decides_at_160_mm() {
-        let robot = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
-        let settings = settings::for_advance(&robot).unwrap();
-        let cycles: Vec<Cycle> = shipped::cycle_names()
-            .map(|name| shipped::cycle(name).unwrap().unwrap())
-            .collect();
-        let under = |mm: f64| {
-            let cycles = cycles.iter().map(|cycle| (cycle, "shipped"));
-            Passage::try_all(
-                robot.robot(),
-                &settings[0],
-                cycles,
-                mm * 1e-3,
-                3e-3,
-                &Unwatched,
-            )
-        };
-        let low = under(160.0);
-        assert!(!low.feasible && !low.may_be_searched());
-        assert!(low.limited_by.contains("foot"), "{}", low.limited_by);
-        let tight = under(168.0);
-        assert!(tight.feasible, "{tight:?}");
-        assert!(tight.best.unwrap().left_mm >= 3.0);
-        let high = under(178.5);
-        assert!(high.best.unwrap().mm_per_cycle > 110.0);
-    }
-}
+mod tests;

@@ -1,9 +1,6 @@
 //! Whether anything of a robot can fit under a ceiling at all.
 
-use glam::DVec3;
-
-use prone::frames::{Ground, Root, Transform};
-use prone::robot::{ContactGroup, JointAngles, Robot};
+use prone::robot::Robot;
 
 /// A margin that is as large as its ceiling.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -28,40 +25,27 @@ impl NoRoom {
     }
 }
 
-/// Why no gait of this robot is so low, m, whatever its form.
+/// Why nothing of this robot passes so low, m, whatever its posture and its motion: one of its shapes
+/// is thicker than that however it is turned.
 pub fn too_low(robot: &Robot, height: f64) -> Option<String> {
-    let foot = foot_length(robot);
-    (foot > height).then(|| {
+    let (thickness, part) = thickest(robot)?;
+    (thickness >= height).then(|| {
         format!(
-            "the foot, {:.1} mm long: with toes planted it passes through the vertical in every closed-chain gait, and {:.1} mm are left",
-            foot * 1e3,
-            height * 1e3
+            "the {part}, which is {:.1} mm thick however it is turned",
+            thickness * 1e3
         )
     })
 }
 
-/// How long the foot is along its sole, m: its shapes' extent forward in the zero pose, in which a
-/// humanoid stands on flat soles. The longer of both feet.
-pub fn foot_length(robot: &Robot) -> f64 {
-    let upright = Transform::<Ground, Root>::translation(DVec3::ZERO);
-    let poses = robot.forward_kinematics(upright, &JointAngles::zero(robot));
-    let sides = robot.chain.sides().map(|side| {
-        let y = poses.point(side.toe).metres().y;
-        let feet = robot.shapes.iter().filter(|shape| {
-            let body = &robot.bodies[shape.body.0];
-            let centre = (*poses.of(shape.body) * shape.link_from_geom)
-                .origin()
-                .metres();
-            body.contact_group == ContactGroup::Toe && centre.y * y > 0.0
-        });
-        let (mut front, mut back) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
-        for shape in feet {
-            front = front.max(shape.reach_along(poses.of(shape.body), DVec3::X));
-            back = back.max(shape.reach_along(poses.of(shape.body), DVec3::NEG_X));
-        }
-        front + back
+/// How thick the thickest part of a robot is, m, and the body's name: the least extent of a shape over all
+/// directions, and of all shapes the largest.
+pub fn thickest(robot: &Robot) -> Option<(f64, &str)> {
+    let shapes = robot.shapes.iter();
+    let parts = shapes.map(|shape| {
+        let body = &robot.bodies[shape.body.0];
+        (shape.solid.thickness(), body.name.as_str())
     });
-    sides[0].max(sides[1])
+    parts.max_by(|a, b| a.0.total_cmp(&b.0))
 }
 
 #[cfg(test)]
@@ -72,9 +56,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn reference_the_sole_of_the_nao() {
+    fn reference_the_skull_of_the_nao() {
         let robot = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
-        // The sole's box in robot.xml is 160.6 mm long.
-        assert!((foot_length(robot.robot()) - 0.1606).abs() < 1e-9);
+        // Its ellipsoid in robot.xml has half-axes of 58, 64 and 58 mm.
+        let (thickness, part) = thickest(robot.robot()).unwrap();
+        assert_eq!(part, "Head");
+        assert!((thickness - 0.116).abs() < 1e-9, "{thickness}");
+        assert!(too_low(robot.robot(), 0.116).is_some());
+        assert!(too_low(robot.robot(), 0.117).is_none());
     }
 }

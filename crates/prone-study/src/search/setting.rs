@@ -6,6 +6,7 @@ use prone::regime::Regime;
 use prone::robot::JointAngles;
 use prone::scene::{Scene, SideFriction};
 use prone_record::frontier::SettingKind;
+use prone_sim::driven::LateCommands;
 use prone_sim::{LoadedRobot, World, WorldError};
 
 /// What a setting is for.
@@ -19,14 +20,6 @@ pub enum Role {
     Turn(f64),
     /// Nothing is asked of it; what it does is reported.
     Beside,
-    /// It may not turn by more than an angle a cycle, rad, and has to advance by at least a share of
-    /// the first setting's advance.
-    Straight {
-        /// The angle, rad.
-        yaw: f64,
-        /// The share.
-        keep: f64,
-    },
 }
 
 /// Share of the first setting's advance that a confirmation asks for.
@@ -39,7 +32,7 @@ impl Role {
     /// Share of the first setting's advance that is asked for, where one is.
     pub const fn keep(self) -> Option<f64> {
         match self {
-            Self::Keep(share) | Self::Straight { keep: share, .. } => Some(share),
+            Self::Keep(share) => Some(share),
             Self::Turn(_) => Some(TURNING),
             Self::Value | Self::Beside => None,
         }
@@ -61,10 +54,14 @@ pub struct SettingSpec {
     pub pull: Option<PhaseDuration>,
     /// What every commanded angle is off by, rad.
     pub offsets: Option<JointAngles>,
+    /// How late commands reach the servos, where they do.
+    pub late: Option<LateCommands>,
     /// How many cycles; the last one is measured.
     pub cycles: usize,
     /// Turn command, in shares of the cycle's limit; the first pull is straight all the same.
     pub turn: f64,
+    /// Whether a cycle that can be steered holds its heading.
+    pub held: bool,
     /// What it is for.
     pub role: Role,
 }
@@ -79,10 +76,15 @@ pub struct Setting {
 }
 
 impl SettingSpec {
-    /// A robot's world for it.
+    /// A robot's world for it, on a level floor.
     pub fn compile(self, robot: &LoadedRobot) -> Result<Setting, WorldError> {
-        let mut scene = Scene::level();
-        scene.floor.friction = self.friction;
+        self.compile_in(robot, Scene::level())
+    }
+
+    /// A robot's world for it, in a scene; where the setting has a friction by side, it replaces that
+    /// of the scene.
+    pub fn compile_in(self, robot: &LoadedRobot, mut scene: Scene) -> Result<Setting, WorldError> {
+        scene.floor.friction = self.friction.or(scene.floor.friction);
         Ok(Setting {
             world: World::in_scene(robot, self.regime, &scene)?,
             spec: self,

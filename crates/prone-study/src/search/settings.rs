@@ -1,39 +1,49 @@
 //! The settings in which cycles are searched and confirmed.
 //!
-//! All are the locomotion regime, with the manufacturer's effort and joint limits on; friction,
-//! servo gains, time scale and the engine's step are what its name says.
+//! All are the locomotion regime, with the manufacturer's effort and joint limits on. Searches look at
+//! the first of the [`corners`], confirmations at all of them; what else a setting changes, engine step,
+//! time scale, servo, turn command, is what its name says.
 
 use prone::gait::cycle::{TimeScale, TimeScaleError};
 use prone::gait::{PhaseDuration, PhaseDurationError};
 use prone::regime::{MotorServo, Regime};
-use prone::robot::{JointAngles, Robot};
-use prone::scene::SideFriction;
-use prone_optim::Random;
+use prone::scene::{Scene, SideFriction};
 use prone_sim::{LoadedRobot, WorldError};
 
+use super::corners::{self, Asked, Corner, OFFSET_DEG, UNEVEN, offsets};
 use super::setting::{HOLDS, Role, Setting, SettingSpec};
 use prone_record::frontier::{CycleObjective, SettingKind};
 
-/// Friction of the locomotion regime and the span over which a cycle has to hold.
-const SLIPPERY: f64 = 0.4;
-const STICKY: f64 = 1.0;
 /// Time scales over which a cycle has to hold: played slowly, an arm shows how high it is lifted;
 /// played fast, servos lag.
 const FAST: f64 = 0.8;
 const SLOW: f64 = 1.7;
-/// Friction on the left and on the right of uneven grounds.
-const UNEVEN: [(f64, f64); 2] = [(0.5, 0.9), (0.9, 0.5)];
-/// How far joints are off there, rad: 1°.
-const OFF: f64 = 0.0175;
-/// Seeds of these angles: some that no test uses.
+/// Seeds of calibration errors that show how far a cycle is thrown off without being steered: some
+/// that neither the corners nor any test uses.
 const OFF_SEED: u64 = 101;
-/// Turn a cycle at the largest command, rad: 6°.
-const TURN: f64 = 0.105;
-/// Turn a cycle there without any command, rad: 3°, so that half of the command at most is spent on
-/// keeping straight.
-const DRIFT: f64 = 0.0524;
+/// Turn a cycle at the largest command, rad: 10°.
+const TURN: f64 = 0.175;
+/// Turn a cycle at half the largest command, rad: 3°. What it turns more than that at the largest one
+/// makes the command monotone.
+const HALF_TURN: f64 = 0.0524;
 /// Share of the advance that a search keeps where it has to hold: a confirmation asks for less.
 const KEEP: f64 = 0.85;
+
+/// The corners of a search, those first in which candidates fail most often: sticky ground, servos
+/// that give way, uneven ground with joints that are off, play, late commands. What fails in one is
+/// not tried in those after it.
+const SEARCHED: [Corner; 7] = [
+    Corner::Friction(1.0),
+    Corner::Stiffness(0.5),
+    Corner::Uneven {
+        friction: UNEVEN[0],
+        seed: 1,
+    },
+    Corner::Backlash { degrees: 1.0 },
+    Corner::Friction(0.4),
+    Corner::LATE,
+    Corner::Masses(1.1),
+];
 
 /// Why there are no settings.
 #[derive(Debug, thiserror::Error)]
@@ -58,31 +68,11 @@ fn plain(kind: SettingKind, cycles: usize, role: Role) -> SettingSpec {
         scale: TimeScale::ONE,
         pull: None,
         offsets: None,
+        late: None,
         cycles,
         turn: 0.0,
+        held: false,
         role,
-    }
-}
-
-/// A corner of a search of the advance: another friction, at another speed.
-fn corner(kind: SettingKind, friction: f64, scale: f64) -> Result<SettingSpec, SettingError> {
-    Ok(SettingSpec {
-        regime: Regime {
-            friction,
-            ..Regime::LOCOMOTION
-        },
-        scale: TimeScale::new(scale)?,
-        ..plain(kind, 1, Role::Keep(KEEP))
-    })
-}
-
-fn with_friction(friction: f64) -> SettingSpec {
-    SettingSpec {
-        regime: Regime {
-            friction,
-            ..Regime::LOCOMOTION
-        },
-        ..plain(SettingKind::Friction(friction), 3, Role::Keep(HOLDS))
     }
 }
 
@@ -100,6 +90,15 @@ fn stiff(cycles: usize, role: Role) -> SettingSpec {
     }
 }
 
+/// As everything is in the model, in a scene; two cycles, whose value counts.
+///
+/// # Errors
+/// [`SettingError`] where the engine refuses it.
+pub fn as_it_is(robot: &LoadedRobot, scene: Scene) -> Result<Setting, SettingError> {
+    let spec = plain(SettingKind::AsItIs, 2, Role::Value);
+    Ok(spec.compile_in(robot, scene)?)
+}
+
 fn compiled<const N: usize>(
     robot: &LoadedRobot,
     specs: [SettingSpec; N],
@@ -108,69 +107,80 @@ fn compiled<const N: usize>(
     settings.collect()
 }
 
-/// For a search by an objective.
+/// For a search by an objective, before any corner.
+///
+/// # Errors
+/// [`SettingError`] where the engine refuses a setting.
 pub fn for_search(
     objective: CycleObjective,
     robot: &LoadedRobot,
 ) -> Result<Vec<Setting>, SettingError> {
     match objective {
         CycleObjective::Heat | CycleObjective::Peak => for_heat(robot),
-        CycleObjective::Advance | CycleObjective::Speed => for_advance(robot),
+        CycleObjective::HeatRate | CycleObjective::Advance | CycleObjective::Speed => {
+            for_advance(robot)
+        }
     }
 }
 
-/// For a search of the advance: as it is, and the two corners in which it is hardest to hold.
-pub fn for_advance(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
-    compiled(
-        robot,
-        [
-            plain(SettingKind::AsItIs, 2, Role::Value),
-            corner(SettingKind::SlowSlippery, SLIPPERY, SLOW)?,
-            corner(SettingKind::FastSticky, STICKY, FAST)?,
-        ],
-    )
-}
-
-/// What a search adds where its cycle has to be steered: at the largest command it turns, and joints
-/// that are off on ground that is more slippery on one side turn it by less than that.
-pub fn for_steering(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
-    steering(robot, KEEP, OFF_SEED)
-}
-
-/// The same for a confirmation, with joints off by other angles.
-pub fn for_steering_confirmation(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
-    steering(robot, HOLDS, OFF_SEED + UNEVEN.len() as u64)
-}
-
-fn steering(robot: &LoadedRobot, keep: f64, seed: u64) -> Result<Vec<Setting>, SettingError> {
-    let turning = SettingSpec {
-        turn: 1.0,
-        ..plain(SettingKind::Turning, 3, Role::Turn(TURN))
+/// The corners of a search, which come last: most candidates fail before.
+///
+/// # Errors
+/// [`SettingError`] where the engine refuses a setting.
+pub fn searched_corners(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
+    let asked = Asked {
+        cycles: 2,
+        role: Role::Keep(KEEP),
     };
-    let mut settings = vec![turning.compile(robot)?];
-    for (index, (left, right)) in UNEVEN.into_iter().enumerate() {
-        let role = Role::Straight { yaw: DRIFT, keep };
+    Ok(corners::settings(robot, &Scene::level(), SEARCHED, asked)?)
+}
+
+/// As it is, without any corner.
+///
+/// # Errors
+/// [`SettingError`] where the engine refuses it.
+pub fn for_advance(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
+    compiled(robot, [plain(SettingKind::AsItIs, 2, Role::Value)])
+}
+
+/// What a search adds where its cycle has to be steered: it turns by 10° a cycle at the largest
+/// command, and by less, but something, at half of it.
+///
+/// # Errors
+/// [`SettingError`] where the engine refuses a setting.
+pub fn for_steering(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
+    compiled(robot, turning())
+}
+
+fn turning() -> [SettingSpec; 2] {
+    let turning = |kind, turn, least| SettingSpec {
+        turn,
+        ..plain(kind, 3, Role::Turn(least))
+    };
+    [
+        turning(SettingKind::HalfTurning, 0.5, HALF_TURN),
+        turning(SettingKind::Turning, 1.0, TURN),
+    ]
+}
+
+/// The same for a confirmation, and how far uneven ground and joints that are off throw it off where
+/// it is not steered.
+///
+/// # Errors
+/// [`SettingError`] where the engine refuses a setting.
+pub fn for_steering_confirmation(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
+    let mut settings = for_steering(robot)?;
+    for (index, friction) in UNEVEN.into_iter().enumerate() {
+        let SideFriction { left, right } = friction;
+        let largest = OFFSET_DEG.to_radians();
         let uneven = SettingSpec {
-            friction: Some(SideFriction { left, right }),
-            offsets: Some(offsets(robot.robot(), OFF, seed + index as u64)),
-            ..plain(SettingKind::Uneven { left, right }, 3, role)
+            friction: Some(friction),
+            offsets: Some(offsets(robot.robot(), largest, OFF_SEED + index as u64)),
+            ..plain(SettingKind::Uneven { left, right }, 3, Role::Beside)
         };
         settings.push(uneven.compile(robot)?);
     }
     Ok(settings)
-}
-
-/// Of every joint of arms and legs that a pull moves, left then right, an angle drawn evenly from
-/// ±`largest`, rad.
-pub fn offsets(robot: &Robot, largest: f64, seed: u64) -> JointAngles {
-    let mut random = Random::new(seed);
-    let mut offsets = JointAngles::zero(robot);
-    for side in robot.chain.sides() {
-        for joint in side.commanded_joints() {
-            offsets[joint] = largest * (2.0 * random.uniform() - 1.0);
-        }
-    }
-    offsets
 }
 
 /// For a search of the heat: the robot's own servos and stiff ones, as nobody knows a robot's.
@@ -191,6 +201,11 @@ pub fn for_confirmation(
     objective: CycleObjective,
     robot: &LoadedRobot,
 ) -> Result<Vec<Setting>, SettingError> {
+    let asked = Asked {
+        cycles: 3,
+        role: Role::Keep(HOLDS),
+    };
+    let corners = corners::settings(robot, &Scene::level(), corners::all(), asked)?;
     let fine = SettingSpec {
         regime: Regime {
             time_step: 0.001,
@@ -206,8 +221,6 @@ pub fn for_confirmation(
         robot,
         [
             plain(SettingKind::AsItIs, 3, Role::Value),
-            with_friction(SLIPPERY),
-            with_friction(STICKY),
             with_scale(FAST)?,
             with_scale(SLOW)?,
             fine,
@@ -217,8 +230,9 @@ pub fn for_confirmation(
     )?;
     let pulls: &[f64] = match objective {
         CycleObjective::Heat | CycleObjective::Peak => &[1.0, 2.0, 3.0],
-        CycleObjective::Advance | CycleObjective::Speed => &[],
+        CycleObjective::HeatRate | CycleObjective::Advance | CycleObjective::Speed => &[],
     };
+    settings.extend(corners);
     for &seconds in pulls {
         let other_pull = SettingSpec {
             pull: Some(PhaseDuration::new(seconds)?),

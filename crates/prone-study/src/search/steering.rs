@@ -24,6 +24,17 @@ pub enum NotSteered {
         /// By what throws it off, rad, to whichever side.
         thrown_off: f64,
     },
+    /// More of the command turns it less.
+    #[error(
+        "half its largest turn command turns it by {:.2}° a cycle, and all of it by {:.2}°",
+        half.to_degrees(), whole.to_degrees()
+    )]
+    Folds {
+        /// By half of the largest command, rad, positive to the left, as the command is.
+        half: f64,
+        /// By the largest command, rad.
+        whole: f64,
+    },
     /// It cannot be crawled in a setting.
     #[error("{setting}: {source}")]
     Crawl {
@@ -52,8 +63,16 @@ pub fn check_steering(settings: &[Setting], cycle: &Cycle) -> Result<(), NotStee
             source,
         })?;
         match setting.spec.role {
-            Role::Turn(_) => turned = turned.max(trial.yaw),
-            Role::Value | Role::Keep(_) | Role::Beside | Role::Straight { .. } => {
+            Role::Turn(_) => {
+                if trial.yaw < turned {
+                    return Err(NotSteered::Folds {
+                        half: turned,
+                        whole: trial.yaw,
+                    });
+                }
+                turned = trial.yaw;
+            }
+            Role::Value | Role::Keep(_) | Role::Beside => {
                 thrown_off = further(thrown_off, trial.yaw);
             }
         }

@@ -6,7 +6,7 @@ use prone::motor::{Load, Verdict};
 use prone::robot::BodyPart;
 use prone::statics::GRAVITY;
 use prone::steering::HeadingHold;
-use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, Detail, End};
+use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, Detail, End, OnTouch};
 
 use super::setting::Setting;
 use prone_record::frontier::SettingKind;
@@ -68,6 +68,7 @@ pub fn try_out(setting: &Setting, cycle: &Cycle) -> Result<Trial, CrawlError> {
         offsets: setting.spec.offsets.clone(),
         late: setting.spec.late,
         imu_seed: None,
+        on_touch: OnTouch::GoOn,
         detail: Detail::Sums,
     };
     let turn = setting.spec.turn * limit;

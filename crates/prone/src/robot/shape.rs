@@ -72,6 +72,22 @@ impl Solid {
     }
 }
 
+impl Solid {
+    /// Least extent over all directions, metres: turned any way, it needs at least that much room
+    /// between two parallel planes.
+    pub fn thickness(&self) -> f64 {
+        2.0 * match *self {
+            Self::Sphere { radius } | Self::Capsule { radius, .. } => radius,
+            Self::Ellipsoid { half_axes } => half_axes.min_element(),
+            Self::Cylinder {
+                radius,
+                half_length,
+            } => radius.min(half_length),
+            Self::Cuboid { half_edges } => half_edges.min_element(),
+        }
+    }
+}
+
 impl Shape {
     /// How far the shape reaches along a unit direction of frame `F`, metres from its origin.
     pub fn reach_along<F: Frame>(&self, frame_from_link: &Transform<F, Link>, axis: DVec3) -> f64 {

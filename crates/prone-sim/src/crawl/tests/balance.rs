@@ -168,6 +168,7 @@ fn plan(gait: &str, cycles: usize) -> CrawlPlan {
         offsets: None,
         late: None,
         imu_seed: None,
+        on_touch: OnTouch::GoOn,
         detail: Detail::Rows,
     }
 }

@@ -1,0 +1,141 @@
+//! One cycle on its way under a plate, in one setting.
+
+use prone::crawl::{Pilot, Straight};
+use prone::gait::cycle::{Cycle, TimeScale};
+use prone::motor::{Load, Verdict};
+use prone::robot::{BodyPart, Robot};
+use prone::scene::{Scene, obstacle_name};
+use prone::steering::HeadingHold;
+use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, Detail, End, OnTouch};
+
+use super::super::setting::Setting;
+
+/// How many times as many cycles as the way would take at its first advance a cycle may take.
+const PATIENCE: f64 = 3.0;
+
+/// Fewest cycles before a crawl that does not arrive is given up.
+const FEWEST_CYCLES: usize = 6;
+
+/// What became of a cycle under a plate.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Attempt {
+    /// Whether it came out behind the plate.
+    pub(super) passed: bool,
+    /// What it touched first: part of the body and obstacle.
+    pub(super) touched: Option<String>,
+    /// How long it took, s, or until it was given up.
+    pub(super) seconds: f64,
+    /// How many cycles.
+    pub(super) cycles: usize,
+    /// How far it came, m.
+    pub(super) distance: f64,
+    /// Advance per cycle, m, mean of all.
+    pub(super) advance: f64,
+    /// Highest point, m, and of which part of the body.
+    pub(super) top: (f64, BodyPart),
+    /// Farthest from the line of the start, m, at the end of a cycle.
+    pub(super) drift: f64,
+    /// Largest mean force on the head over 20 ms, N.
+    pub(super) head: f64,
+    /// What the motors did over the nominal, where they are known.
+    pub(super) verdict: Option<Verdict>,
+    /// Heat per metre, s/m, where the motors are known.
+    pub(super) heat_per_metre: Option<f64>,
+}
+
+/// How far a plate is crossed, and in how many cycles at most.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Way {
+    /// Where the last point of the robot has to have passed, m.
+    pub(super) x: f64,
+    /// Cycles at most.
+    pub(super) at_most: usize,
+}
+
+impl Way {
+    /// Under a plate of a length, m, at an advance per cycle, m.
+    pub(super) fn under(robot: &Robot, length: f64, advance: f64) -> Self {
+        let x = Scene::CLEAR_START + length;
+        let cycles = PATIENCE * (x + robot.lying_length) / advance.max(1e-3);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "at most some thousands, and positive"
+        )]
+        let at_most = cycles.ceil().min(2000.0) as usize;
+        Self {
+            x,
+            at_most: at_most.max(FEWEST_CYCLES),
+        }
+    }
+}
+
+/// Crawls a cycle under the plate of a setting's scene; it is given up when it touches anything.
+pub(super) fn attempt(
+    setting: &Setting,
+    cycle: &Cycle,
+    way: Way,
+    stopped: &dyn Fn() -> bool,
+) -> Result<Attempt, CrawlError> {
+    let plan = CrawlPlan {
+        cycles: vec![cycle.clone()],
+        scale: TimeScale::ONE,
+        end: End::Past {
+            x: way.x,
+            at_most: way.at_most,
+        },
+        on_touch: OnTouch::End,
+        offsets: setting.spec.offsets.clone(),
+        late: setting.spec.late,
+        imu_seed: None,
+        detail: Detail::Sums,
+    };
+    let limit = cycle.steering.as_ref().map(|steering| steering.limit);
+    let pilot: Box<dyn Pilot> = match limit.filter(|_| setting.spec.held) {
+        Some(limit) => {
+            let gains = setting.world.robot().control.steering;
+            Box::new(HeadingHold::new(gains, limit))
+        }
+        None => Box::new(Straight { turn: 0.0 }),
+    };
+    let crawl = crawl::run_unless(stopped, &setting.world, &plan, pilot)?;
+    Ok(measured(setting, &crawl))
+}
+
+fn measured(setting: &Setting, crawl: &Crawl) -> Attempt {
+    let world = &setting.world;
+    let robot = world.robot();
+    let load = Load {
+        robot,
+        gear_efficiency: world.gear_efficiency(),
+        effort: &crawl.effort,
+        head: crawl.ground.head_peak(),
+    };
+    let touched = crawl
+        .touches
+        .iter()
+        .min_by(|a, b| a.first.total_cmp(&b.first));
+    let touched = touched.map(|touch| {
+        let obstacle = obstacle_name(world.obstacles(), touch.obstacle);
+        format!("{} touches {obstacle}", robot.bodies[touch.body.0].name)
+    });
+    let start = crawl.cycles.first().map(|cycle| cycle.from);
+    let ends = crawl.cycles.iter().map(|cycle| cycle.to);
+    let drift = ends.map(|to| (to.y - start.map_or(0.0, |from| from.y)).abs());
+    let path: f64 = crawl.cycles.iter().map(|it| it.advance().forward).sum();
+    let distance = crawl.cycles.last().zip(start);
+    let heat = crawl.effort.heat(robot).ok();
+    Attempt {
+        passed: crawl.arrived && crawl.touches.is_empty(),
+        touched,
+        seconds: crawl.effort.seconds,
+        cycles: crawl.cycles.len(),
+        distance: distance.map_or(0.0, |(last, from)| last.to.x - from.x),
+        advance: path / crawl.cycles.len().max(1) as f64,
+        top: (crawl.tops.highest(), crawl.tops.part()),
+        drift: drift.fold(0.0, f64::max),
+        head: crawl.ground.head_peak(),
+        verdict: Verdict::from_load(&load).ok(),
+        heat_per_metre: heat.filter(|_| path > 0.0).map(|heat| heat / path),
+    }
+}

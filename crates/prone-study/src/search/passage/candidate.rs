@@ -1,0 +1,170 @@
+//! A cycle under a ceiling, in figures.
+
+use std::cmp::Ordering;
+
+use prone_sim::crawl::CrawlError;
+use serde::Serialize;
+
+use super::super::corners::Corner;
+use super::super::trial::Trial;
+use super::attempt::Attempt;
+use super::{Offered, Under, millimetres};
+
+/// A cycle and what it came to under the ceiling.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Candidate {
+    /// What `prone crawl run --gait` takes for it.
+    pub gait: String,
+    /// Where it comes from: `shipped`, `file` or `searched`.
+    pub found_by: String,
+    /// Whether it gets through with the margin where everything is as in the model.
+    pub passes: bool,
+    /// Whether it gets through in all corners; nothing where a faster one did, or where it does not
+    /// pass.
+    pub robust: Option<bool>,
+    /// In how many corners, one after the other, it got through.
+    pub corners_passed: usize,
+    /// The first corner in which it did not.
+    pub failed: Option<FailedCorner>,
+    /// How long it takes where everything is as in the model, s.
+    pub time_s: f64,
+    /// Why it does not pass as in the model, where it does not.
+    pub obstructed: Option<String>,
+    /// Highest point on open ground, mm.
+    pub open_top_mm: f64,
+    /// Part of the body that reaches it.
+    pub open_top_part: String,
+    /// Highest point of all its runs under the plate, mm.
+    pub top_mm: f64,
+    /// Part of the body that reaches it.
+    pub top_part: String,
+    /// What is left below the ceiling there, mm; negative where it does not fit.
+    pub margin_mm: f64,
+    /// Advance per cycle where everything is as in the model, mm.
+    pub mm_per_cycle: f64,
+    /// Least advance per cycle of all its runs, mm.
+    pub worst_mm_per_cycle: f64,
+    /// Speed where everything is as in the model, mm/s.
+    pub mm_per_s: f64,
+    /// Whether it can be steered.
+    pub steers: bool,
+    /// Farthest from the line of the start, mm, at the end of any cycle of all its runs.
+    pub drift_mm: f64,
+    /// Whether the motors of a robot can do it, where they are known.
+    pub verdict: Option<String>,
+    /// Largest mean force on the head over 20 ms, N, where everything is as in the model.
+    pub head_n: f64,
+    /// Heat per metre of path where everything is as in the model, s/m.
+    pub heat_per_metre_s: Option<f64>,
+}
+
+/// A corner in which a cycle did not get through.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FailedCorner {
+    /// Its name.
+    pub corner: String,
+    /// What it is, in a sentence.
+    pub sentence: String,
+    /// What happened.
+    pub reason: String,
+}
+
+impl Candidate {
+    /// A cycle by its crawl on open ground and under the plate, as everything is in the model.
+    pub(super) fn new(offered: &Offered<'_>, open: &Trial, run: &Attempt, under: Under) -> Self {
+        let top = run.top.0.max(open.top.0);
+        let fits = under.height - top >= under.margin;
+        let obstructed = reason(run).or_else(|| {
+            (!fits).then(|| {
+                format!(
+                    "its {} comes within {:.1} mm of the ceiling",
+                    run.top.1.name(),
+                    (under.height - top) * 1e3
+                )
+            })
+        });
+        let verdict = run.verdict.as_ref().map(|it| it.duty.name().to_owned());
+        Self {
+            gait: offered.called.to_owned(),
+            found_by: offered.origin.to_owned(),
+            passes: obstructed.is_none(),
+            robust: None,
+            corners_passed: 0,
+            failed: None,
+            time_s: run.seconds,
+            obstructed,
+            open_top_mm: millimetres(open.top.0),
+            open_top_part: open.top.1.name().to_owned(),
+            top_mm: millimetres(run.top.0),
+            top_part: run.top.1.name().to_owned(),
+            margin_mm: millimetres(under.height - run.top.0),
+            mm_per_cycle: run.advance * 1e3,
+            worst_mm_per_cycle: run.advance * 1e3,
+            mm_per_s: open.speed() * 1e3,
+            steers: offered.cycle.steering.is_some(),
+            drift_mm: run.drift * 1e3,
+            verdict,
+            head_n: run.head,
+            heat_per_metre_s: run.heat_per_metre,
+        }
+    }
+
+    /// Adds a run in a corner; an error where it does not get through there.
+    pub(super) fn add(
+        &mut self,
+        corner: Corner,
+        run: Result<Attempt, CrawlError>,
+        under: Under,
+    ) -> Result<(), FailedCorner> {
+        let failed = |reason| FailedCorner {
+            corner: corner.to_string(),
+            sentence: corner.sentence(),
+            reason,
+        };
+        let run = run.map_err(|error| failed(error.to_string()))?;
+        if let Some(reason) = reason(&run) {
+            return Err(failed(reason));
+        }
+        if run.top.0 * 1e3 > self.top_mm {
+            self.top_mm = millimetres(run.top.0);
+            self.top_part = run.top.1.name().to_owned();
+            self.margin_mm = millimetres(under.height - run.top.0);
+        }
+        self.worst_mm_per_cycle = self.worst_mm_per_cycle.min(run.advance * 1e3);
+        self.drift_mm = self.drift_mm.max(run.drift * 1e3);
+        Ok(())
+    }
+
+    /// Why it is no robust answer, in words.
+    pub(super) fn failure(&self) -> String {
+        self.failed.as_ref().map_or_else(
+            || "corners that were not tried".to_owned(),
+            |failed| format!("{}: {}", failed.corner, failed.reason),
+        )
+    }
+
+    /// Those that pass first, by the time that they take; then the others by their height.
+    pub(super) fn order(&self, other: &Self) -> Ordering {
+        let passing = other.passes.cmp(&self.passes);
+        let within = if self.passes {
+            self.time_s.total_cmp(&other.time_s)
+        } else {
+            self.open_top_mm.total_cmp(&other.open_top_mm)
+        };
+        passing.then(within)
+    }
+}
+
+/// Why a run did not get through, where it did not.
+fn reason(run: &Attempt) -> Option<String> {
+    if run.passed {
+        return None;
+    }
+    Some(run.touched.clone().unwrap_or_else(|| {
+        format!(
+            "not past it after {} cycles, {:.0} mm on",
+            run.cycles,
+            run.distance * 1e3
+        )
+    }))
+}
