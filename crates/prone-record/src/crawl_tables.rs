@@ -195,7 +195,7 @@ fn heat_and_work(robot: &Robot, effort: Option<&Effort>) -> (Vec<Option<f64>>, V
     (heat, work)
 }
 
-/// `commands.csv`: what the joints were sent, offsets apart, and when, s.
+/// `commands.csv`: what the joints were sent, offsets apart, and when it reached them, s.
 pub fn commands(robot: &Robot, commands: &[(f64, JointAngles)]) -> Result<Vec<u8>, csv::Error> {
     let names = robot.joints.iter();
     let columns = names.map(|joint| format!("{}{COMMAND_END}", joint.name));

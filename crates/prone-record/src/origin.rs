@@ -60,6 +60,9 @@ pub enum ServoInfo {
         back_emf_nms_rad: f64,
         /// Whether the motor's figures were assumed from the joint's limits.
         assumed: bool,
+        /// Play of the gear from one edge to the other, rad, where there is any.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        backlash_rad: Option<f64>,
     },
     /// The velocity servo of the published recordings.
     Velocity {

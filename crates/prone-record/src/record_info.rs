@@ -158,11 +158,25 @@ pub struct CrawlOptions {
     pub heading_deg: Option<f64>,
     /// Largest calibration error of a joint, degrees.
     pub joint_offset_deg: Option<f64>,
-    /// Seed of those errors.
+    /// Seed of those errors, of the noise of the inertial unit and of late commands.
     pub seed: Option<u64>,
     /// The errors themselves, rad, by joint; those of the other joints are zero.
     #[serde(default)]
     pub joint_offsets_rad: Vec<(String, f64)>,
+    /// What masses and moments of inertia of the robot were multiplied by, where it did not weigh what
+    /// its model says.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mass_factor: Option<f64>,
+    /// What the stiffness of the servos was multiplied by, where a factor was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stiffness_factor: Option<f64>,
+    /// Play of every gear, degrees, where there was any.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub backlash_deg: Option<f64>,
+    /// Longest delay of late commands, ms, where they were late; the record has them as they reached the
+    /// servos.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub late_commands_ms: Option<f64>,
     /// Text of the scene's file, where there is one.
     pub scene_text: Option<String>,
     /// File and text of the cycle that is taken uphill, where there is one.

@@ -157,6 +157,11 @@ impl World {
         self.robot.mass() * self.regime.mass_factor
     }
 
+    /// Whether both are one compiled model, shared.
+    pub fn shares_model_with(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.model, &other.model)
+    }
+
     /// The contact regime.
     pub const fn regime(&self) -> &Regime {
         &self.regime

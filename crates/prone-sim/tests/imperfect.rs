@@ -81,18 +81,36 @@ fn identity_an_arm_sinks_by_half_the_play_and_what_its_servo_gives_way() {
     }
 }
 
-/// A neck that nothing turns stays within half the play, and no torque holds it there.
+/// A wrist that nothing turns rests where it is within half the play, and no torque holds it there;
+/// outside, it is taken back to the edge of the play.
 #[test]
 fn a_joint_without_load_rests_within_half_the_play() {
-    let neck = |play| {
-        let simulation = on_its_back(with_play(play), 0.0);
-        let neck = simulation.robot().joint("HeadYaw").unwrap();
-        let angle = simulation.joint_angles()[neck];
-        (angle, simulation.applied_torque()[neck.0])
+    let wrist = |play, begin: f64| {
+        let loaded = nao();
+        let world = World::new(&loaded, with_play(play)).unwrap();
+        let wrist = loaded.robot().joint("LWristYaw").unwrap();
+        let told = JointAngles::zero(loaded.robot());
+        let mut posture = told.clone();
+        posture[wrist] = begin;
+        let placement = Placement {
+            posture,
+            pitch: -std::f64::consts::FRAC_PI_2,
+        };
+        let mut simulation = Simulation::new(&world, &placement);
+        simulation.command(&told);
+        for _ in 0..1200 {
+            simulation.step();
+        }
+        let angle = simulation.joint_angles()[wrist];
+        (angle, simulation.applied_torque()[wrist.0])
     };
-    let (angle, torque) = neck(PLAY);
-    assert!(angle.abs() <= PLAY / 2.0, "{angle} rad");
-    assert!(torque.abs() < 1e-6, "{torque} N·m");
+    let (within, torque) = wrist(PLAY, 0.4 * PLAY);
+    assert!(within > 0.3 * PLAY && within < 0.5 * PLAY, "{within} rad");
+    assert!(torque.abs() < 1e-4, "{torque} N·m");
+    let (back, _) = wrist(PLAY, 3.0 * PLAY);
+    assert!(back.abs() < 0.51 * PLAY, "{back} rad");
+    let (tight, _) = wrist(0.0, 0.4 * PLAY);
+    assert!(tight.abs() < 0.02 * PLAY, "{tight} rad");
 }
 
 /// Masses and moments of inertia are multiplied; armature, and the robot that is planned with, are not.

@@ -104,7 +104,8 @@ pub(crate) struct CrawlRunArgs {
     /// Largest calibration error of the joints of arms and legs, degrees; each joint has its own, drawn uniformly within ± this
     #[arg(long, value_name = "D", requires = "seed", value_parser = offset, allow_negative_numbers = true)]
     pub(crate) joint_offset_deg: Option<f64>,
-    /// Seed of the calibration errors of --joint-offset-deg and of the inertial unit's noise
+    /// Seed of the calibration errors of --joint-offset-deg, of the inertial unit's noise and of
+    /// --late-commands-ms
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub(crate) seed: Option<u64>,
     /// Slope of the floor, uphill ahead, degrees
@@ -119,6 +120,18 @@ pub(crate) struct CrawlRunArgs {
     /// Stiffness of the servos
     #[arg(long, value_enum, default_value = "normal")]
     pub(crate) servo: ServoName,
+    /// What the stiffness of the servos is multiplied by, in place of --servo
+    #[arg(long, value_name = "F", conflicts_with = "servo", value_parser = stiffness_factor, allow_negative_numbers = true)]
+    pub(crate) stiffness_factor: Option<f64>,
+    /// What masses and inertias of the robot are multiplied by: a robot that is lighter or heavier than its model
+    #[arg(long, value_name = "F", value_parser = mass_factor, allow_negative_numbers = true)]
+    pub(crate) mass_factor: Option<f64>,
+    /// Play of every gear from one edge to the other, degrees: within it a motor passes on no torque
+    #[arg(long, value_name = "D", value_parser = backlash, allow_negative_numbers = true)]
+    pub(crate) backlash_deg: Option<f64>,
+    /// Let the servos get one command every 20 ms, each late by 0 to MS, which --seed draws
+    #[arg(long, value_name = "MS", requires = "seed", value_parser = late_commands, allow_negative_numbers = true)]
+    pub(crate) late_commands_ms: Option<f64>,
     /// Share of the motors' torque that the gears pass on, in place of `gear_efficiency` of robot.toml
     /// (NAO 0.6, an estimate)
     #[arg(long, value_name = "E", value_parser = gear_efficiency, allow_negative_numbers = true)]
@@ -185,6 +198,22 @@ fn rest(text: &str) -> Result<f64, String> {
 
 fn gear_efficiency(text: &str) -> Result<f64, String> {
     within(text, CrawlExperiment::GEAR_EFFICIENCY_BOUNDS)
+}
+
+fn stiffness_factor(text: &str) -> Result<f64, String> {
+    within(text, CrawlExperiment::STIFFNESS_BOUNDS)
+}
+
+fn mass_factor(text: &str) -> Result<f64, String> {
+    within(text, CrawlExperiment::MASS_BOUNDS)
+}
+
+fn backlash(text: &str) -> Result<f64, String> {
+    within(text, CrawlExperiment::BACKLASH_BOUNDS_DEG)
+}
+
+fn late_commands(text: &str) -> Result<f64, String> {
+    within(text, CrawlExperiment::LATE_BOUNDS_MS)
 }
 
 fn within(text: &str, (lowest, highest): (f64, f64)) -> Result<f64, String> {

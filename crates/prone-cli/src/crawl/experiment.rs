@@ -14,9 +14,11 @@ use crate::gait::find_cycle;
 
 /// What was typed, with the texts of all files that it names.
 pub(super) fn of(args: &CrawlRunArgs) -> Result<CrawlExperiment, Failure> {
-    if args.seed.is_some() && args.joint_offset_deg.is_none() && args.uphill.is_none() {
+    let draws_nothing =
+        args.joint_offset_deg.is_none() && args.uphill.is_none() && args.late_commands_ms.is_none();
+    if args.seed.is_some() && draws_nothing {
         return Err(Failure::Input(anyhow!(
-            "--seed draws joint offsets or an inertial unit's noise: it goes with --joint-offset-deg or --uphill"
+            "--seed draws joint offsets, an inertial unit's noise or delays: it goes with --joint-offset-deg, --uphill or --late-commands-ms"
         )));
     }
     let files = crate::robot::files(args.robot.name())?;
@@ -37,11 +39,15 @@ pub(super) fn of(args: &CrawlRunArgs) -> Result<CrawlExperiment, Failure> {
         time_scale: args.time_scale.value(),
         rest_s: args.rest_s,
         gear_efficiency: args.gear_efficiency,
-        servo: match args.servo {
-            ServoName::Normal => ServoChoice::Normal,
-            ServoName::Soft => ServoChoice::Soft,
-            ServoName::Stiff => ServoChoice::Stiff,
+        servo: match (args.stiffness_factor, args.servo) {
+            (Some(factor), _) => ServoChoice::Times(factor),
+            (None, ServoName::Normal) => ServoChoice::Normal,
+            (None, ServoName::Soft) => ServoChoice::Soft,
+            (None, ServoName::Stiff) => ServoChoice::Stiff,
         },
+        mass_factor: args.mass_factor,
+        backlash_deg: args.backlash_deg,
+        late_commands_ms: args.late_commands_ms,
         time_step_s: args.time_step_ms.seconds(),
         joint_offset_deg: args.joint_offset_deg,
         seed: args.seed,

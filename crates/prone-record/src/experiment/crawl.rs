@@ -40,13 +40,24 @@ pub struct CrawlExperiment {
     pub rest_s: f64,
     /// Stiffness of the servos.
     pub servo: ServoChoice,
+    /// What masses and moments of inertia of the robot are multiplied by, where it does not weigh what
+    /// its model says.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mass_factor: Option<f64>,
+    /// Play of every gear from one edge to the other, degrees, where there is any.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub backlash_deg: Option<f64>,
+    /// Where commands are late, the longest delay, ms: the servos get one every 20 ms, each after a
+    /// delay that the seed draws.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub late_commands_ms: Option<f64>,
     /// Efficiency of the gears, in place of the robot's.
     pub gear_efficiency: Option<f64>,
     /// Length of an engine step, s, where it is not the regime's.
     pub time_step_s: Option<f64>,
     /// Largest calibration error of a joint, degrees, each drawn evenly by the seed.
     pub joint_offset_deg: Option<f64>,
-    /// Seed of the calibration errors and of the inertial unit's noise; both need it.
+    /// Seed of the calibration errors, of the inertial unit's noise and of late commands; all need it.
     pub seed: Option<u64>,
     /// What is kept.
     pub detail: Detail,
@@ -97,7 +108,7 @@ pub enum SteeringChoice {
 }
 
 /// How stiff the servos are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ServoChoice {
     /// As the robot's are taken to be.
@@ -106,6 +117,8 @@ pub enum ServoChoice {
     Soft,
     /// Four times as stiff.
     Stiff,
+    /// So many times as stiff.
+    Times(f64),
 }
 
 /// What is kept of a crawl.
@@ -134,6 +147,18 @@ impl CrawlExperiment {
     /// Efficiencies of gears.
     pub const GEAR_EFFICIENCY_BOUNDS: (f64, f64) = bounds::GEAR_EFFICIENCY;
 
+    /// Factors of the servos' stiffness.
+    pub const STIFFNESS_BOUNDS: (f64, f64) = (0.1, 4.0);
+
+    /// Factors of masses.
+    pub const MASS_BOUNDS: (f64, f64) = (0.5, 2.0);
+
+    /// Plays of gears, degrees.
+    pub const BACKLASH_BOUNDS_DEG: (f64, f64) = (0.0, 5.0);
+
+    /// Longest delays of late commands, ms: up to the time between two of them.
+    pub const LATE_BOUNDS_MS: (f64, f64) = (0.0, 20.0);
+
     /// Rests after a cycle, s.
     pub const REST_BOUNDS_S: (f64, f64) = (0.0, 600.0);
 
@@ -152,6 +177,9 @@ impl CrawlExperiment {
             time_scale: 1.0,
             rest_s: 0.0,
             servo: ServoChoice::Normal,
+            mass_factor: None,
+            backlash_deg: None,
+            late_commands_ms: None,
             gear_efficiency: None,
             time_step_s: None,
             joint_offset_deg: None,

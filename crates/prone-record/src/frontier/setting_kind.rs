@@ -24,6 +24,15 @@ pub enum SettingKind {
         /// Friction at the right.
         right: f64,
     },
+    /// The same, with joints that are off by what a seed draws.
+    UnevenBySeed {
+        /// Friction at the left.
+        left: f64,
+        /// Friction at the right.
+        right: f64,
+        /// The seed.
+        seed: u64,
+    },
     /// Another friction.
     Friction(f64),
     /// Another time scale.
@@ -34,6 +43,14 @@ pub enum SettingKind {
     StiffServos,
     /// Softer servos.
     SoftServos,
+    /// Another stiffness of the servos: what it is multiplied by.
+    Stiffness(f64),
+    /// Other masses: what they are multiplied by.
+    Masses(f64),
+    /// Gears with some play, degrees.
+    Backlash(f64),
+    /// Commands that are late, by up to so many ms.
+    LateCommands(f64),
     /// Another duration of the pull, s.
     PullOf(f64),
 }
@@ -48,11 +65,18 @@ impl fmt::Display for SettingKind {
             Self::Uneven { left, right } => {
                 write!(f, "friction {left} and {right}, joints off")
             }
+            Self::UnevenBySeed { left, right, seed } => {
+                write!(f, "friction {left} and {right}, joints off by seed {seed}")
+            }
             Self::Friction(friction) => write!(f, "friction {friction}"),
             Self::TimeScale(scale) => write!(f, "time scale {scale}"),
             Self::FineSteps => f.write_str("1 ms steps"),
             Self::StiffServos => f.write_str("stiff servos"),
             Self::SoftServos => f.write_str("soft servos"),
+            Self::Stiffness(factor) => write!(f, "stiffness times {factor}"),
+            Self::Masses(factor) => write!(f, "masses times {factor}"),
+            Self::Backlash(degrees) => write!(f, "backlash of {degrees}°"),
+            Self::LateCommands(ms) => write!(f, "commands late by up to {ms} ms"),
             Self::PullOf(seconds) => write!(f, "pull of {seconds} s"),
         }
     }
@@ -92,11 +116,33 @@ fn with_numbers(name: &str) -> Option<SettingKind> {
             right: right.parse().ok()?,
         });
     }
+    if let Some((sides, seed)) = name.split_once(", joints off by seed ") {
+        let (left, right) = sides.strip_prefix("friction ")?.split_once(" and ")?;
+        return Some(SettingKind::UnevenBySeed {
+            left: left.parse().ok()?,
+            right: right.parse().ok()?,
+            seed: seed.parse().ok()?,
+        });
+    }
     if let Some(friction) = name.strip_prefix("friction ") {
         return Some(SettingKind::Friction(friction.parse().ok()?));
     }
     if let Some(scale) = name.strip_prefix("time scale ") {
         return Some(SettingKind::TimeScale(scale.parse().ok()?));
+    }
+    if let Some(factor) = name.strip_prefix("stiffness times ") {
+        return Some(SettingKind::Stiffness(factor.parse().ok()?));
+    }
+    if let Some(factor) = name.strip_prefix("masses times ") {
+        return Some(SettingKind::Masses(factor.parse().ok()?));
+    }
+    if let Some(degrees) = name.strip_prefix("backlash of ") {
+        let degrees = degrees.strip_suffix('°')?;
+        return Some(SettingKind::Backlash(degrees.parse().ok()?));
+    }
+    if let Some(ms) = name.strip_prefix("commands late by up to ") {
+        let ms = ms.strip_suffix(" ms")?;
+        return Some(SettingKind::LateCommands(ms.parse().ok()?));
     }
     let seconds = name.strip_prefix("pull of ")?.strip_suffix(" s")?;
     Some(SettingKind::PullOf(seconds.parse().ok()?))
@@ -115,12 +161,21 @@ mod tests {
             SettingKind::FastSticky,
             SettingKind::Turning,
             SettingKind::Uneven { left, right },
+            SettingKind::UnevenBySeed {
+                left,
+                right,
+                seed: 3,
+            },
             SettingKind::Friction(0.4),
             SettingKind::Friction(1.0),
             SettingKind::TimeScale(1.7),
             SettingKind::FineSteps,
             SettingKind::StiffServos,
             SettingKind::SoftServos,
+            SettingKind::Stiffness(2.0),
+            SettingKind::Masses(1.1),
+            SettingKind::Backlash(1.0),
+            SettingKind::LateCommands(20.0),
             SettingKind::PullOf(3.0),
         ] {
             assert_eq!(SettingKind::try_from(kind.to_string()), Ok(kind));

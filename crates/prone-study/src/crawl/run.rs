@@ -134,6 +134,7 @@ fn servo_info(robot: &Robot, WorldDrive { drive, servo }: &WorldDrive) -> ServoI
             current_torque_nm: motor.current_torque,
             back_emf_nms_rad: motor.back_emf,
             assumed: motor.assumed,
+            backlash_rad: (motor.backlash > 0.0).then_some(motor.backlash),
         },
         WorldServo::Velocity { law, gain, limit } => ServoInfo::Velocity {
             joints,

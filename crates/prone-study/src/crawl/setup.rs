@@ -17,10 +17,11 @@ use prone_record::experiment::{
 };
 use prone_record::record_info::CrawlOptions;
 use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, End, ROW_STEP, check_limbs};
+use prone_sim::driven::LateCommands;
 use prone_sim::{LoadedRobot, World};
 
 use super::run::{GaitSource, PastObstacles, offsets_by_name};
-use crate::search::settings::offsets;
+use crate::search::corners::offsets;
 
 /// A crawl that can be simulated.
 pub struct CrawlSetup {
@@ -42,6 +43,7 @@ pub struct CrawlSetup {
     rest: f64,
     end: End,
     offsets: Option<JointAngles>,
+    late: Option<LateCommands>,
     steering: Steering,
     /// What is kept of it.
     pub detail: Detail,
@@ -116,6 +118,12 @@ impl CrawlSetup {
             .joint_offset_deg
             .zip(experiment.seed)
             .map(|(degrees, seed)| offsets(world.robot(), degrees.to_radians(), seed));
+        let late = experiment.late_commands_ms.zip(experiment.seed);
+        let late = late.map(|(ms, seed)| LateCommands {
+            every: LateCommands::SLOW,
+            at_most: ms / 1e3,
+            seed,
+        });
         let (Ending::Cycles(most_cycles) | Ending::PastObstacles(most_cycles)) = experiment.ending;
         let (steering_name, turn_command_deg, heading_deg) = match experiment.steering {
             SteeringChoice::None => ("none", 0.0, None),
@@ -134,6 +142,13 @@ impl CrawlSetup {
             joint_offset_deg: Some(experiment.joint_offset_deg.unwrap_or_default()),
             seed: experiment.seed,
             joint_offsets_rad: offsets_by_name(world.robot(), offsets.as_ref()),
+            mass_factor: experiment.mass_factor,
+            stiffness_factor: match experiment.servo {
+                ServoChoice::Times(factor) => Some(factor),
+                ServoChoice::Normal | ServoChoice::Soft | ServoChoice::Stiff => None,
+            },
+            backlash_deg: experiment.backlash_deg,
+            late_commands_ms: experiment.late_commands_ms,
             scene_text: experiment.scene.text.as_ref().map(|it| it.text.clone()),
             uphill: uphill
                 .as_ref()
@@ -151,6 +166,7 @@ impl CrawlSetup {
             uphill,
             end,
             offsets,
+            late,
             steering,
             detail: experiment.detail,
         })
@@ -293,6 +309,7 @@ fn check(experiment: &CrawlExperiment) -> Result<(), CrawlSetupError> {
         experiment.rest_s,
         CrawlExperiment::REST_BOUNDS_S,
     )?;
+    check_imperfections(experiment)?;
     if let Some(degrees) = experiment.joint_offset_deg {
         Limit::check(
             "a calibration error",
@@ -313,6 +330,7 @@ fn check(experiment: &CrawlExperiment) -> Result<(), CrawlSetupError> {
     match experiment.seed {
         None if experiment.joint_offset_deg.is_some() => no_seed("calibration errors"),
         None if experiment.uphill.is_some() => no_seed("the noise of the inertial unit"),
+        None if experiment.late_commands_ms.is_some() => no_seed("the delays of commands"),
         _ => match (&experiment.scene.text, experiment.scene.plate) {
             (Some(text), Some(_)) => Err(CrawlSetupError::TwoScenes {
                 scene: text.file.clone(),
@@ -320,6 +338,29 @@ fn check(experiment: &CrawlExperiment) -> Result<(), CrawlSetupError> {
             _ => Ok(()),
         },
     }
+}
+
+/// What a robot may have that its model has not.
+fn check_imperfections(experiment: &CrawlExperiment) -> Result<(), CrawlSetupError> {
+    let stiffness = match experiment.servo {
+        ServoChoice::Times(factor) => Some(factor),
+        ServoChoice::Normal | ServoChoice::Soft | ServoChoice::Stiff => None,
+    };
+    let bounds = CrawlExperiment::STIFFNESS_BOUNDS;
+    let masses = CrawlExperiment::MASS_BOUNDS;
+    let play = CrawlExperiment::BACKLASH_BOUNDS_DEG;
+    let late = CrawlExperiment::LATE_BOUNDS_MS;
+    for (what, unit, value, bounds) in [
+        ("a factor of stiffness", "", stiffness, bounds),
+        ("a factor of masses", "", experiment.mass_factor, masses),
+        ("a backlash", "°", experiment.backlash_deg, play),
+        ("a delay", " ms", experiment.late_commands_ms, late),
+    ] {
+        if let Some(value) = value {
+            Limit::check(what, unit, value, bounds)?;
+        }
+    }
+    Ok(())
 }
 
 /// Shortest and longest engine step, s: contacts are too soft for longer ones.
@@ -330,15 +371,21 @@ fn regime(experiment: &CrawlExperiment) -> Regime {
         ServoChoice::Normal => MotorServo::ROBOT,
         ServoChoice::Soft => MotorServo::SOFT,
         ServoChoice::Stiff => MotorServo::STIFF,
+        ServoChoice::Times(stiffness_factor) => MotorServo {
+            stiffness_factor,
+            ..MotorServo::ROBOT
+        },
     };
     let regime = Regime::LOCOMOTION.with_motors(MotorServo {
         gear_efficiency: experiment.gear_efficiency,
+        backlash: experiment.backlash_deg.map_or(0.0, f64::to_radians),
         ..motors
     });
-    experiment.time_step_s.map_or(regime, |time_step| Regime {
-        time_step,
+    Regime {
+        time_step: experiment.time_step_s.unwrap_or(regime.time_step),
+        mass_factor: experiment.mass_factor.unwrap_or(regime.mass_factor),
         ..regime
-    })
+    }
 }
 
 fn scene(choice: &SceneChoice) -> Result<Scene, CrawlSetupError> {

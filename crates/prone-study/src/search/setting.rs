@@ -6,6 +6,7 @@ use prone::regime::Regime;
 use prone::robot::JointAngles;
 use prone::scene::{Scene, SideFriction};
 use prone_record::frontier::SettingKind;
+use prone_sim::driven::LateCommands;
 use prone_sim::{LoadedRobot, World, WorldError};
 
 /// What a setting is for.
@@ -61,6 +62,8 @@ pub struct SettingSpec {
     pub pull: Option<PhaseDuration>,
     /// What every commanded angle is off by, rad.
     pub offsets: Option<JointAngles>,
+    /// How late commands reach the servos, where they do.
+    pub late: Option<LateCommands>,
     /// How many cycles; the last one is measured.
     pub cycles: usize,
     /// Turn command, in shares of the cycle's limit; the first pull is straight all the same.
@@ -79,10 +82,15 @@ pub struct Setting {
 }
 
 impl SettingSpec {
-    /// A robot's world for it.
+    /// A robot's world for it, on a level floor.
     pub fn compile(self, robot: &LoadedRobot) -> Result<Setting, WorldError> {
-        let mut scene = Scene::level();
-        scene.floor.friction = self.friction;
+        self.compile_in(robot, Scene::level())
+    }
+
+    /// A robot's world for it, in a scene; where the setting has a friction by side, it replaces that
+    /// of the scene.
+    pub fn compile_in(self, robot: &LoadedRobot, mut scene: Scene) -> Result<Setting, WorldError> {
+        scene.floor.friction = self.friction.or(scene.floor.friction);
         Ok(Setting {
             world: World::in_scene(robot, self.regime, &scene)?,
             spec: self,

@@ -6,11 +6,10 @@
 use prone::gait::cycle::{TimeScale, TimeScaleError};
 use prone::gait::{PhaseDuration, PhaseDurationError};
 use prone::regime::{MotorServo, Regime};
-use prone::robot::{JointAngles, Robot};
 use prone::scene::SideFriction;
-use prone_optim::Random;
 use prone_sim::{LoadedRobot, WorldError};
 
+use super::corners::{UNEVEN, offsets};
 use super::setting::{HOLDS, Role, Setting, SettingSpec};
 use prone_record::frontier::{CycleObjective, SettingKind};
 
@@ -21,9 +20,8 @@ const STICKY: f64 = 1.0;
 /// played fast, servos lag.
 const FAST: f64 = 0.8;
 const SLOW: f64 = 1.7;
-/// Friction on the left and on the right of uneven grounds.
-const UNEVEN: [(f64, f64); 2] = [(0.5, 0.9), (0.9, 0.5)];
-/// How far joints are off there, rad: 1°.
+/// How far joints are off on uneven ground, rad: nearly the 1° of [`super::corners`]. The cycles that
+/// ship were searched with this angle.
 const OFF: f64 = 0.0175;
 /// Seeds of these angles: some that no test uses.
 const OFF_SEED: u64 = 101;
@@ -58,6 +56,7 @@ fn plain(kind: SettingKind, cycles: usize, role: Role) -> SettingSpec {
         scale: TimeScale::ONE,
         pull: None,
         offsets: None,
+        late: None,
         cycles,
         turn: 0.0,
         role,
@@ -148,29 +147,17 @@ fn steering(robot: &LoadedRobot, keep: f64, seed: u64) -> Result<Vec<Setting>, S
         ..plain(SettingKind::Turning, 3, Role::Turn(TURN))
     };
     let mut settings = vec![turning.compile(robot)?];
-    for (index, (left, right)) in UNEVEN.into_iter().enumerate() {
+    for (index, friction) in UNEVEN.into_iter().enumerate() {
+        let SideFriction { left, right } = friction;
         let role = Role::Straight { yaw: DRIFT, keep };
         let uneven = SettingSpec {
-            friction: Some(SideFriction { left, right }),
+            friction: Some(friction),
             offsets: Some(offsets(robot.robot(), OFF, seed + index as u64)),
             ..plain(SettingKind::Uneven { left, right }, 3, role)
         };
         settings.push(uneven.compile(robot)?);
     }
     Ok(settings)
-}
-
-/// Of every joint of arms and legs that a pull moves, left then right, an angle drawn evenly from
-/// ±`largest`, rad.
-pub fn offsets(robot: &Robot, largest: f64, seed: u64) -> JointAngles {
-    let mut random = Random::new(seed);
-    let mut offsets = JointAngles::zero(robot);
-    for side in robot.chain.sides() {
-        for joint in side.commanded_joints() {
-            offsets[joint] = largest * (2.0 * random.uniform() - 1.0);
-        }
-    }
-    offsets
 }
 
 /// For a search of the heat: the robot's own servos and stiff ones, as nobody knows a robot's.

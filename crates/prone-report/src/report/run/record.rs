@@ -166,6 +166,14 @@ fn facts(info: &RecordInfo) -> Markup {
             ("steering", word(&options.steering)),
             ("joints off by up to, °", figure(options.joint_offset_deg)),
         ]);
+        let imperfect = [
+            ("masses times", options.mass_factor),
+            ("stiffness of servos times", options.stiffness_factor),
+            ("play of gears, °", options.backlash_deg),
+            ("commands late by up to, ms", options.late_commands_ms),
+        ];
+        let imperfect = imperfect.into_iter();
+        facts.extend(imperfect.filter_map(|(name, it)| Some((name, format!("{:?}", it?)))));
     }
     facts.push(("time scale", figure(info.options.time_scale())));
     let seed = info.options.crawl().and_then(|options| options.seed);
