@@ -11,10 +11,13 @@ the record, and nothing of prone:
     run.json             options of the engine, friction, and the law and figures of each motor
     robot.compiled.json  nominal torque of each motor
     start.json           pose, posture and speeds when the first pull begins
-    commands.csv         every command to the joints, with the time at which it was given
+    commands.csv         every command to the joints, with the time at which it reached the servos
     rows.csv             every 20 ms: pose of the root; heat and work of each motor since the row before
 
 The replay begins in that state and gets those commands. Nothing that was measured later is fed back.
+A robot with other masses, other stiffness, play in its gears or late commands is replayed as it was:
+run.json has the factor of the masses, the stiffness and the play of each motor, and commands that were
+late stand where they arrived. A record with calibration errors of the joints is refused.
 Of both, three things are measured between the same rows: advance along the heading with which a
 cycle begins, motor heat, and positive work. They do not agree to the digit: numbers in the tables are
 rounded, and where limbs and trunk land on the floor, contacts amplify small differences, more so with
@@ -56,8 +59,11 @@ class Motor:
         f = self.figures
         if f["law"] == "velocity":  # the speed that each joint is to have, rad/s
             return np.clip(f["rate_per_s"] * error, -f["speed_rad_s"], f["speed_rad_s"])
+        # Within ± half the play of the gear no torque passes; outside, the error counts from its edge.
+        half_play = f.get("backlash_rad", 0.0) / 2
+        beyond = error.mean() - np.clip(error.mean(), -half_play, half_play)
         # A torque in N·m, cut first by the supply and then by the current limit; the joints share it.
-        torque = np.clip(f["stiffness_nm_rad"] * error.mean(), -f["supply_torque_nm"], f["supply_torque_nm"])
+        torque = np.clip(f["stiffness_nm_rad"] * beyond, -f["supply_torque_nm"], f["supply_torque_nm"])
         back_emf, limit = f["back_emf_nms_rad"] * speed.mean(), f["current_torque_nm"]
         return np.clip(torque, back_emf - limit, back_emf + limit) / len(self.joints)
 
@@ -71,7 +77,7 @@ class Motor:
         return control - f["back_emf_nms_rad"] / len(self.joints) * after
 
 
-def build_model(robot_xml, origin, motors):
+def build_model(robot_xml, origin, motors, mass_factor):
     """The robot on a level floor, with an actuator for each joint that is named after the joint."""
     spec = mujoco.MjSpec.from_string(robot_xml)
     option = spec.option
@@ -99,6 +105,9 @@ def build_model(robot_xml, origin, motors):
             else:
                 actuator.set_to_motor()
     model = spec.compile()
+    if mass_factor != 1.0:  # of masses and inertias, not of the joints' armature
+        mujoco.mj_setTotalmass(model, mass_factor * model.body_mass.sum())
+        mujoco.mj_setConst(model, mujoco.MjData(model))
     # The back-EMF of a motor is damping of its joints. It acts with the speed after the step.
     for joint, damping in origin["joint_damping_nms_rad"].items():
         model.dof_damping[model.joint(joint).dofadr] = damping
@@ -171,6 +180,10 @@ def check(run):
         raise ValueError("its floor is not level and empty")
     if {scene["friction_left"], scene["friction_right"]} != {origin["friction"]}:
         raise ValueError("its scene has a friction of its own")
+    if not run["options"].get("mass_factor", 1.0) > 0:
+        raise ValueError(f"its masses are times {run['options']['mass_factor']}")
+    if run["options"].get("backlash_deg", 0) and not any("backlash_rad" in it for it in origin["servos"].values()):
+        raise ValueError("its gears have play, and the figures of its motors do not say how much")
     if any(run["options"].get("joint_offsets_rad", [])):
         raise ValueError("its joints have calibration errors, which recorded commands are without")
 
@@ -192,8 +205,10 @@ def replay_and_measure(record, robot_xml):
     motors = [Motor(name, figures, robot) for name, figures in origin["servos"].items()]
     if robot_xml is None:
         robot_xml = ROOT / run["robot"]["folder"] / "robot.xml"
-    model = build_model(robot_xml.read_text(encoding="utf-8"), origin, motors)
-    recorded_kg, kg = sum(body["mass_kg"] for body in robot["bodies"]), model.body_mass.sum()
+    mass_factor = run["options"].get("mass_factor", 1.0)
+    model = build_model(robot_xml.read_text(encoding="utf-8"), origin, motors, mass_factor)
+    # robot.compiled.json has the robot as its model says.
+    recorded_kg, kg = sum(body["mass_kg"] for body in robot["bodies"]), model.body_mass.sum() / mass_factor
     if abs(kg - recorded_kg) > 1e-6:
         raise ValueError(f"its robot weighs {recorded_kg:.4f} kg, and that of {robot_xml} {kg:.4f} kg: see --robot-xml")
     if origin["engine"] != f"MuJoCo {mujoco.__version__}":
