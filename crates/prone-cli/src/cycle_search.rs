@@ -83,6 +83,7 @@ pub(crate) fn experiment(args: &OptimizeArgs) -> Result<CycleSearchExperiment, F
                 body_share_percent: args.body_share_percent,
                 most_heat: args.most_heat,
                 most_head_n: Some(args.most_head_n.unwrap_or(HEAD_CARRIES)),
+                most_drift_mm: args.most_drift_mm,
                 duty: args.duty.map(|duty| match duty {
                     DutyName::Continuous => LeastDuty::Continuous,
                     DutyName::Limited => LeastDuty::Limited,

@@ -94,6 +94,10 @@ pub(crate) struct OptimizeArgs {
     /// a small one finds more [default: 1]
     #[arg(long, value_name = "SHARE", value_parser = reach, allow_negative_numbers = true)]
     pub(crate) reach: Option<f64>,
+    /// cycle: farthest from the line within 6 cycles on uneven ground with joints that are off, where
+    /// the heading is held, mm [default: any]
+    #[arg(long, value_name = "MM", value_parser = super::passage::height, allow_negative_numbers = true)]
+    pub(crate) most_drift_mm: Option<f64>,
     /// cycle: what the motors of a robot have to be able to do [default: anything]
     #[arg(long, value_enum)]
     pub(crate) duty: Option<DutyName>,

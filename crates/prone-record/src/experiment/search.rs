@@ -160,6 +160,8 @@ pub struct CycleRulesChoice {
     pub most_heat: Option<f64>,
     /// Largest mean force on the head over 20 ms, N.
     pub most_head_n: Option<f64>,
+    /// Farthest from the line where the heading is held, mm.
+    pub most_drift_mm: Option<f64>,
     /// What the motors of a robot have to be able to do.
     pub duty: Option<LeastDuty>,
 }
@@ -203,6 +205,7 @@ impl CycleRulesChoice {
                 (0.0, 100.0),
             ),
             ("a heat", "", self.most_heat, efforts),
+            ("a drift", " mm", self.most_drift_mm, lengths),
             ("a force on the head", " N", self.most_head_n, Self::HEAD_N),
         ];
         let asked = |(what, unit, value, bounds): (_, _, Option<f64>, _)| {

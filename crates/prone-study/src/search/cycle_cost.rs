@@ -181,8 +181,7 @@ impl CycleCosts {
                 .trials
                 .first()
                 .map_or(trial.advance, |first: &Trial| first.advance);
-            let servo = setting.world.regime().servo;
-            cost.add_all(&rules.broken_by_trial(setting.spec.role, servo, &trial, first));
+            cost.add_all(&rules.broken_by_trial(&setting.spec, &trial, first));
             cost.trials.push(trial);
         }
         let of = |counts: fn(Role) -> bool| {

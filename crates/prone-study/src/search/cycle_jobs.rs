@@ -295,6 +295,7 @@ fn asked_rules(asked: &CycleRulesChoice, usual: CycleRules) -> CycleRules {
         demanded_shoulder: demanded.unwrap_or(usual.demanded_shoulder),
         body_share: share.unwrap_or(usual.body_share),
         heat: asked.most_heat.unwrap_or(usual.heat),
+        drift: asked.most_drift_mm.map_or(usual.drift, |mm| mm * 1e-3),
         head: asked.most_head_n.unwrap_or(usual.head),
         duty: match asked.duty {
             None => usual.duty,

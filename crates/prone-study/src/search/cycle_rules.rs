@@ -3,7 +3,7 @@
 //! With a value v and its limit, a rule is broken by
 //!
 //! ```text
-//! max(v / largest − 1, 0)    height, duration, demanded torque, heat, drift of the heading,
+//! max(v / largest − 1, 0)    height, duration, demanded torque, heat, drift off the line,
 //!                            each measure of the motors against the bound of a duty           (1)
 //! max(1 − v / least, 0)      advance, turn                                                    (2)
 //! max(v − largest, 0)        share of the weight on trunk, head and legs, and on the head     (3)
@@ -23,7 +23,7 @@
 use prone::motor::{Duty, HEAD_CARRIES, Measure};
 use prone::regime::{MotorServo, Servo};
 
-use super::setting::{HOLDS, Role};
+use super::setting::{HOLDS, Role, SettingSpec};
 use super::trial::Trial;
 
 /// Violation of a setting that was not simulated, of a cycle that cannot be crawled, and of a value
@@ -49,6 +49,8 @@ pub struct CycleRules {
     pub head: f64,
     /// Largest heat, merged over servos.
     pub heat: f64,
+    /// Farthest from the line where the heading is held, m.
+    pub drift: f64,
     /// Least of what the motors of a robot could do in the first setting ([`Duty::NotOnARobot`] asks
     /// for nothing).
     pub duty: Duty,
@@ -64,6 +66,7 @@ impl CycleRules {
         demanded_shoulder: f64::INFINITY,
         head: HEAD_CARRIES,
         heat: f64::INFINITY,
+        drift: f64::INFINITY,
         duty: Duty::NotOnARobot,
     };
 
@@ -81,15 +84,15 @@ impl CycleRules {
         }
     }
 
-    /// What a trial breaks, rule by rule, in a setting of a role and with servos; the first setting's advance is
-    /// what others keep a share of, m.
+    /// What a trial breaks, rule by rule, in a setting; the first setting's advance is what others keep a
+    /// share of, m.
     pub(super) fn broken_by_trial(
         &self,
-        role: Role,
-        servo: Servo,
+        spec: &SettingSpec,
         trial: &Trial,
         first_advance: f64,
     ) -> Vec<(&'static str, f64)> {
+        let (role, servo) = (spec.role, spec.regime.servo);
         if role == Role::Beside {
             return Vec::new();
         }
@@ -103,6 +106,9 @@ impl CycleRules {
             ("ceiling", above(trial.top.0, self.ceiling)),
             ("head", on_the_head(trial, self.head)),
         ];
+        if spec.held {
+            broken.push(("drift", above(trial.drift, self.drift)));
+        }
         if self.body_share < 1.0 && role == Role::Value {
             let excess = number(trial.body_share - self.body_share).max(0.0);
             broken.push(("body-share", excess));

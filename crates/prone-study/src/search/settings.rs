@@ -26,19 +26,25 @@ const TURN: f64 = 0.175;
 /// Turn a cycle at half the largest command, rad: 3°. What it turns more than that at the largest one
 /// makes the command monotone.
 const HALF_TURN: f64 = 0.0524;
+/// Cycles in which a held heading shows how far the robot comes off its line: a metre or two.
+const HELD_CYCLES: usize = 6;
 /// Share of the advance that a search keeps where it has to hold: a confirmation asks for less.
 const KEEP: f64 = 0.85;
 
 /// The corners of a search, those first in which candidates fail most often: sticky ground, servos
 /// that give way, uneven ground with joints that are off, play, late commands. What fails in one is
 /// not tried in those after it.
-const SEARCHED: [Corner; 7] = [
+const SEARCHED: [Corner; 8] = [
     Corner::Friction(1.0),
-    Corner::Stiffness(0.5),
     Corner::Uneven {
         friction: UNEVEN[0],
         seed: 1,
     },
+    Corner::Uneven {
+        friction: UNEVEN[1],
+        seed: 2,
+    },
+    Corner::Stiffness(0.5),
     Corner::Backlash { degrees: 1.0 },
     Corner::Friction(0.4),
     Corner::LATE,
@@ -132,7 +138,13 @@ pub fn searched_corners(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingErro
         cycles: 2,
         role: Role::Keep(KEEP),
     };
-    Ok(corners::settings(robot, &Scene::level(), SEARCHED, asked)?)
+    let mut settings = corners::settings(robot, &Scene::level(), SEARCHED, asked)?;
+    for setting in &mut settings {
+        if setting.spec.held {
+            setting.spec.cycles = HELD_CYCLES;
+        }
+    }
+    Ok(settings)
 }
 
 /// As it is, without any corner.

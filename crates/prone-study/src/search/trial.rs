@@ -36,6 +36,8 @@ pub struct Trial {
     pub body_share: f64,
     /// Change of heading, rad.
     pub yaw: f64,
+    /// Farthest from the line of the start at the end of a cycle, m.
+    pub drift: f64,
     /// Whether the motors of a robot could do it; nothing where one is not known.
     pub verdict: Option<Verdict>,
 }
@@ -100,6 +102,7 @@ fn measured(setting: &Setting, crawl: &Crawl) -> Trial {
         weight: weight(setting),
         body_share: last.body_share,
         yaw: advance.yaw,
+        drift: drift(crawl),
         verdict: verdict(setting, crawl),
     }
 }
@@ -112,6 +115,13 @@ fn verdict(setting: &Setting, crawl: &Crawl) -> Option<Verdict> {
         head: crawl.ground.head_peak(),
     };
     Verdict::from_load(&load).ok()
+}
+
+/// Farthest from the line on which the first cycle began, at the end of any cycle, m.
+fn drift(crawl: &Crawl) -> f64 {
+    let start = crawl.cycles.first().map_or(0.0, |cycle| cycle.from.y);
+    let ends = crawl.cycles.iter().map(|cycle| (cycle.to.y - start).abs());
+    ends.fold(0.0, f64::max)
 }
 
 fn weight(setting: &Setting) -> f64 {
@@ -141,6 +151,7 @@ fn nothing(setting: &Setting, crawl: &Crawl) -> Trial {
         weight: weight(setting),
         body_share: 0.0,
         yaw: 0.0,
+        drift: 0.0,
         verdict: None,
     }
 }
