@@ -71,9 +71,6 @@ export class Plots {
     this.runs = runs;
     this.clock = clock;
     this.build();
-    new ResizeObserver(() => {
-      for (const plot of this.plots) plot.resize();
-    }).observe(host);
   }
 
   /** Anew, in the colours of the page. */
@@ -116,6 +113,8 @@ class Plot {
   private readonly cursor = document.createElement("div");
   private readonly values: { out: HTMLElement; run: Run; data: Float32Array }[] = [];
   private readonly chart: uPlot;
+  /** How wide a plot is depends on those beside it, how high on how its legend wraps: its own room tells. */
+  private readonly room = new ResizeObserver(() => this.chart.setSize(this.size()));
   private readonly digits: number;
   private readonly sided: boolean;
 
@@ -190,6 +189,8 @@ class Plot {
     this.cursor.className = "cursor";
     this.chart.over.append(this.cursor);
     this.scrub(clock);
+    // The first call comes before the page is shown, with all plots in their places.
+    this.room.observe(this.area);
   }
 
   show(time: number, window: [number, number]): void {
@@ -226,11 +227,8 @@ class Plot {
     this.title.replaceChildren(button);
   }
 
-  resize(): void {
-    this.chart.setSize(this.size());
-  }
-
   remove(): void {
+    this.room.disconnect();
     this.chart.destroy();
     this.box.remove();
   }

@@ -68,12 +68,17 @@ export class Browser {
       deviceScaleFactor: scale,
       mobile: width < 500,
     });
-    const features = [{ name: "prefers-color-scheme", value: dark ? "dark" : "light" }];
-    await this.send("Emulation.setEmulatedMedia", { features });
+    await this.scheme(dark);
     // Away first: a new hash alone loads nothing.
     await this.send("Page.navigate", { url: "about:blank" });
     await this.send("Page.navigate", { url });
     await this.until("document.readyState === 'complete'");
+  }
+
+  /** Lets the system prefer dark or light colours; an open page hears of it. */
+  async scheme(dark) {
+    const features = [{ name: "prefers-color-scheme", value: dark ? "dark" : "light" }];
+    await this.send("Emulation.setEmulatedMedia", { features });
   }
 
   /** What an expression of the page, or of a frame in it, is; promises are waited for. */

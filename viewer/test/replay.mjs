@@ -18,6 +18,7 @@ if (!chromium) {
 const browser = new Browser(chromium);
 const address = (file, hash = "") => pathToFileURL(resolve(file)).href + hash;
 const DESKTOP = { width: 1280, height: 800 };
+const NARROWER = { width: 1010, height: 800 };
 
 /** The share of pixels about each run's bodies that differ from the same picture without robot. */
 const ROBOT_PIXELS = `(async () => {
@@ -67,12 +68,70 @@ const FRAMES_PER_SECOND = `(async () => {
   return { size: [stage.canvas.width, stage.canvas.height], rate: (1e3 * count) / (performance.now() - begin) };
 })()`;
 
+/** Each chart and the cell that it stands in, once a picture with all changes has been shown. */
+const PLOTS = `(async () => {
+  for (let i = 0; i < 2; i += 1) await new Promise(requestAnimationFrame);
+  return [...document.querySelectorAll(".plot")].map((cell) => {
+    const chart = cell.querySelector("canvas").getBoundingClientRect();
+    const area = cell.querySelector(".area").getBoundingClientRect();
+    const { right } = cell.getBoundingClientRect();
+    return { width: chart.width, height: chart.height, right: chart.right, room: area.width, high: area.height, end: right };
+  });
+})()`;
+
+/** A chart is drawn in whole pixels; a cell may end between two. */
+const PIXEL = 1;
+
 const time = () => browser.value("proneReplay.clock.time");
 
 async function keep(name) {
   if (!pictures) return;
   mkdirSync(pictures, { recursive: true });
   writeFileSync(join(pictures, `${name}.png`), await browser.screenshot());
+}
+
+/** All charts are equally wide, fill their cells and do not stick out of them. */
+async function plotsFit(when) {
+  const plots = await browser.value(PLOTS);
+  assert.ok(plots.length >= 3, `${when}: ${plots.length} plots`);
+  const said = `${when}: ${JSON.stringify(plots)}`;
+  for (const { width, height, right, room, high, end } of plots) {
+    assert.ok(Math.abs(width - plots[0].width) <= PIXEL, `plots are not equally wide ${said}`);
+    assert.ok(right <= end + PIXEL, `a plot ends outside its cell ${said}`);
+    assert.ok(Math.abs(width - room) <= PIXEL && Math.abs(height - high) <= PIXEL, `a plot does not fill its cell ${said}`);
+  }
+}
+
+/** Does what makes the plots anew, and waits until the page has heard of it. */
+async function madeAnew(change) {
+  await browser.value(`void (window.plotBefore = document.querySelector(".plot"))`);
+  await change();
+  await browser.until("!window.plotBefore.isConnected");
+}
+
+/** Everything that makes the plots anew, or changes the room that they have, while the page is open. */
+async function plotsStayFitted(file) {
+  await browser.open(address(file, "#t=1.2"), DESKTOP);
+  await plotsFit("at first");
+  const title = `document.querySelector(".plot h2 button")`;
+  const click = () => browser.value(`${title}.click()`);
+  for (const side of ["right", "left"]) {
+    await madeAnew(click);
+    assert.ok((await browser.value(`${title}.textContent`)).includes(side), `the title leads to the ${side} side`);
+    await plotsFit(`after a click that leads to the ${side} side`);
+  }
+  const ink = `getComputedStyle(document.body).color`;
+  const light = await browser.value(ink);
+  await madeAnew(() => browser.scheme(true));
+  await plotsFit("after a change to dark colours");
+  assert.notEqual(await browser.value(ink), light, "the colours have changed");
+  await keep("changed-to-dark");
+  await madeAnew(click);
+  await plotsFit("after a click on the dark page");
+  await madeAnew(() => browser.scheme(false));
+  await plotsFit("after a change to light colours");
+  await browser.send("Emulation.setDeviceMetricsOverride", { ...NARROWER, deviceScaleFactor: 1, mobile: false });
+  await plotsFit("in a narrower window");
 }
 
 async function oneRun() {
@@ -168,6 +227,7 @@ let failed = false;
 try {
   await oneRun();
   await twoRuns();
+  for (const file of [one, two]) await plotsStayFitted(file);
   await measure();
   const strangers = browser.requests.filter((url) => !/^(file:.*\.html(#.*)?|about:blank|data:,)$/.test(url));
   assert.deepEqual(strangers, [], "no request but the page itself");

@@ -9,7 +9,7 @@ use anyhow::anyhow;
 
 use prone_record::output;
 use prone_record::single_file;
-use prone_report::report::{PAGE_FILE, Report, ReportError, Source};
+use prone_report::report::{Arrangement, PAGE_FILE, Report, ReportError, Source};
 use prone_thesis::chapter::Thesis;
 
 use crate::args::ReportArgs;
@@ -35,8 +35,13 @@ pub(crate) fn run(args: &ReportArgs) -> Result<(), Failure> {
         .num_threads(args.threads.map_or(0, usize::from))
         .build()
         .map_err(|error| Failure::Work(anyhow!("cannot start worker threads: {error}")))?;
+    let arrangement = if args.chapter {
+        Arrangement::Chapter
+    } else {
+        Arrangement::Runs
+    };
     let report = pool
-        .install(|| Report::from_folders(&sources, &Thesis))
+        .install(|| Report::from_folders(&sources, &Thesis, arrangement))
         .map_err(failure)?;
     match place {
         Place::Page(file) => interrupt::publish(|| {
@@ -162,19 +167,23 @@ fn print(args: &ReportArgs, report: &Report, page: &Path) -> Result<(), Failure>
         return Ok(());
     }
     let numbers = &report.numbers;
-    writeln!(
-        out,
-        "{} of {} figures of the chapter, {} others; {} report cards; {:.2} MB",
-        numbers.chapter_figures(),
-        numbers.chapter_figures() + numbers.missing.len(),
-        numbers
-            .figures
-            .iter()
-            .filter(|figure| figure.number.is_empty())
-            .count(),
-        numbers.cards.len(),
-        report.html.len() as f64 / 1e6
-    )?;
+    let (cards, megabytes) = (numbers.cards.len(), report.html.len() as f64 / 1e6);
+    let figures = if args.chapter {
+        let chapter = numbers.chapter_figures();
+        let others = numbers.figures.iter();
+        let others = others.filter(|figure| figure.number.is_empty()).count();
+        format!(
+            "{chapter} of {} figures of the chapter, {others} others",
+            chapter + numbers.missing.len()
+        )
+    } else {
+        format!("{} figures", numbers.figures.len())
+    };
+    let cards = match cards {
+        1 => "1 report card".to_owned(),
+        count => format!("{count} report cards"),
+    };
+    writeln!(out, "{figures}; {cards}; {megabytes:.2} MB")?;
     for missing in &numbers.missing {
         let made_by = missing
             .command

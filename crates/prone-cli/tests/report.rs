@@ -51,17 +51,30 @@ fn everything() -> [&'static str; 4] {
     [&made.reproduction, &made.crawl, &made.search, maps()]
 }
 
-/// The report of all results, made once.
+/// The chapter, filled by all results, made once.
 fn report() -> &'static Path {
     static REPORT: OnceLock<(TempDir, PathBuf)> = OnceLock::new();
     let (_, folder) = REPORT.get_or_init(|| {
         let home = tempfile::tempdir().unwrap();
         let folder = home.path().join("report");
-        let out = ["--out", folder.to_str().unwrap()];
+        let out = ["--chapter", "--out", folder.to_str().unwrap()];
         succeeded(&[&["report"], &everything()[..], &out].concat());
         (home, folder)
     });
     folder
+}
+
+/// The report of all results by run, made once, and what was said of it.
+fn by_run() -> (&'static Path, &'static str) {
+    static REPORT: OnceLock<(TempDir, PathBuf, String)> = OnceLock::new();
+    let (_, folder, said) = REPORT.get_or_init(|| {
+        let home = tempfile::tempdir().unwrap();
+        let folder = home.path().join("report");
+        let out = ["--out", folder.to_str().unwrap()];
+        let said = succeeded(&[&["report"], &everything()[..], &out].concat());
+        (home, folder, said)
+    });
+    (folder, said)
 }
 
 fn json(file: impl AsRef<Path>) -> Value {
@@ -123,6 +136,71 @@ fn every_figure_of_the_chapter_is_there_or_says_what_makes_it() {
         .filter(|file| file.starts_with("figures"))
         .count();
     assert_eq!(pictures, 2 * figures.len(), "no file without a figure");
+}
+
+#[test]
+fn own_runs_come_first_and_nothing_is_said_of_figures_that_no_run_has() {
+    let (folder, said) = by_run();
+    assert!(
+        !said.contains("no figure") && !said.contains("chapter"),
+        "{said}"
+    );
+    let numbers = json(folder.join("report.json"));
+    assert_eq!(numbers["missing"].as_array().unwrap().len(), 0);
+    let page = text(folder.join("report.html"));
+    for wrong in [
+        "class=\"place\"",
+        "Not among these runs",
+        "Comes with a robot",
+    ] {
+        assert!(!page.contains(wrong), "{wrong}");
+    }
+    // It is called after what it holds: the runs of one's own, then the study.
+    let heading = page.split("<h1>").nth(1).unwrap();
+    let heading = heading.split("</h1>").next().unwrap();
+    assert!(heading.starts_with("low-175 · under-plate, "), "{heading}");
+    assert!(heading.ends_with(" and 2 more"), "{heading}");
+    let at = |sought: &str| page.find(sought).unwrap_or_else(|| panic!("{sought}"));
+    let order = [
+        "<nav ",
+        "<iframe ",
+        "<h2>Report card</h2>",
+        "<figure id=\"fig-31-low-175-angles\">",
+        "<figure id=\"confirmation\">",
+        "<h2>The Projected Profile crawl</h2>",
+        "<figure id=\"fig-36-nominal-torque-by-duration\">",
+        "<h2>What was run</h2>",
+    ];
+    assert!(order.windows(2).all(|two| at(two[0]) < at(two[1])));
+    // Each figure is there once, one's own without a number and without what is published.
+    for figure in numbers["figures"].as_array().unwrap() {
+        let stem = figure["stem"].as_str().unwrap();
+        assert_eq!(
+            page.matches(&format!("<figure id=\"{stem}\">")).count(),
+            1,
+            "{stem}"
+        );
+    }
+    let (own, study) = page.split_at(at("<h2>The Projected Profile crawl</h2>"));
+    for published in ["<strong>Figure ", "Published, on the robot", "Published:"] {
+        assert!(!own.contains(published), "{published}");
+        assert!(study.contains(published), "{published}");
+    }
+    assert!(!own.contains("range on the crawling robot, published"));
+    assert!(text(report().join("report.html")).contains("range on the crawling robot, published"));
+    // Every link of the contents leads somewhere.
+    let contents = page.split("<nav ").nth(1).unwrap();
+    let contents = contents.split("</nav>").next().unwrap();
+    let links: Vec<&str> = contents.split("href=\"#").skip(1).collect();
+    assert!(links.len() >= 9, "{contents}");
+    for link in links {
+        let place = link.split('"').next().unwrap();
+        assert_eq!(
+            page.matches(&format!(" id=\"{place}\"")).count(),
+            1,
+            "{place}"
+        );
+    }
 }
 
 #[test]
@@ -262,7 +340,8 @@ fn the_report_of_a_reproduction_is_the_one_in_it() {
     let home = tempfile::tempdir().unwrap();
     let page = home.path().join("page.html");
     let reproduction = &results().reproduction;
-    succeeded(&["report", reproduction, "--out", page.to_str().unwrap()]);
+    let out = ["--chapter", "--out", page.to_str().unwrap()];
+    succeeded(&[&["report", reproduction][..], &out].concat());
     let own = text(Path::new(reproduction).join("report.html"));
     assert!(own == text(page).replace(&reproduction[..], "this folder"));
     // Costs and both parameter tables are in it, ours beside published.
@@ -320,8 +399,12 @@ fn script(name: &str, arguments: &[&Path], required: &str) -> bool {
 
 #[test]
 fn a_validator_has_no_complaint() {
-    let page = report().join("report.html");
-    if script("test/validate.mjs", &[&page], "PRONE_REQUIRE_VALIDATOR") {
+    let (page, other) = (report().join("report.html"), by_run().0.join("report.html"));
+    if script(
+        "test/validate.mjs",
+        &[&page, &other],
+        "PRONE_REQUIRE_VALIDATOR",
+    ) {
         // It would have one.
         let broken = text(&page).replacen("</main>", "<p id=\"place-29\"><div></p></main>", 1);
         let home = tempfile::tempdir().unwrap();
@@ -341,11 +424,14 @@ fn a_validator_has_no_complaint() {
 
 #[test]
 fn a_browser_shows_page_and_replay() {
-    let pictures: PathBuf = [env!("CARGO_TARGET_TMPDIR"), "report"].iter().collect();
-    let page = report().join("report.html");
-    script(
-        "test/report.mjs",
-        &[&page, &pictures],
-        "PRONE_REQUIRE_BROWSER",
-    );
+    let pages = [("report", by_run().0), ("chapter", report())];
+    for (name, folder) in pages {
+        let pictures: PathBuf = [env!("CARGO_TARGET_TMPDIR"), name].iter().collect();
+        let page = folder.join("report.html");
+        script(
+            "test/report.mjs",
+            &[&page, &pictures],
+            "PRONE_REQUIRE_BROWSER",
+        );
+    }
 }

@@ -38,7 +38,7 @@ pub use publication::{Part, Place, Publication, Unpublished};
 pub use run::{PublishedRun, Run};
 pub use shown::Shown;
 
-use crate::figures::PNG_SCALE;
+use crate::figures::{PNG_SCALE, PublishedRange};
 use folder::Given;
 use prone_record::head::Head;
 use prone_record::output::{Artefacts, RUN_FILE, json};
@@ -63,6 +63,18 @@ pub struct Source {
     pub folder: PathBuf,
 }
 
+/// How a report is arranged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Arrangement {
+    /// By run: the user's own come first, then results of the publication's own commands. Figures that
+    /// no run has are not mentioned, and nothing published stands beside the user's own.
+    Runs,
+    /// As the publication: its numbered figures in their order, with what is published of each. The
+    /// place of a figure that no run has says what makes it.
+    Chapter,
+}
+
 /// A finished report.
 pub struct Report {
     /// The page.
@@ -80,7 +92,7 @@ pub struct Numbers {
     pub cards: Vec<Card>,
     /// The figures that are there.
     pub figures: Vec<Shown>,
-    /// Figures of the chapter that are not, and what makes them.
+    /// Figures of the chapter that are not, and what makes them; none where the report is no chapter.
     pub missing: Vec<Place>,
     /// Folders in the replay.
     pub replayed: Vec<String>,
@@ -88,9 +100,11 @@ pub struct Numbers {
     pub shortfalls: Vec<String>,
     /// What the records never had, one sentence each.
     pub unrecorded: Vec<String>,
-    /// How many figures the publication has.
+    /// How many figures the chapter has; none where the report is no chapter.
     #[serde(skip)]
     places: usize,
+    #[serde(skip)]
+    arrangement: Arrangement,
 }
 
 /// A folder that was read.
@@ -118,20 +132,30 @@ impl Report {
     pub fn from_folders(
         sources: &[Source],
         publication: &dyn Publication,
+        arrangement: Arrangement,
     ) -> Result<Self, ReportError> {
         let mut named = BTreeSet::new();
         let sources = sources.iter();
         let sources: Vec<&Source> = sources
             .filter(|source| named.insert(real(&source.folder)))
             .collect();
+        let reading = Reading {
+            named: &named,
+            publication,
+            arrangement,
+        };
         let runs: Vec<Vec<Run>> = sources
             .par_iter()
             .map(|source| {
                 let folder = Folder::open(&source.name, &source.folder, Given::Named)?;
-                read(folder, &named, publication)
+                reading.read(folder)
             })
             .collect::<Result<_, _>>()?;
         let mut runs: Vec<Run> = runs.into_iter().flatten().collect();
+        if arrangement == Arrangement::Runs {
+            // Stable.
+            runs.sort_by_key(|run| !run.is_own());
+        }
         let shown = shown::from_runs(&mut runs)?;
         // The crawls that the user named come first; stable.
         let mut by_given: Vec<&Run> = runs.iter().collect();
@@ -142,20 +166,27 @@ impl Report {
             shown: &shown,
             cards: &cards,
             publication,
+            arrangement,
             left_out: BTreeSet::new(),
         };
         let (html, replayed) = page.html()?;
-        let missing = places(publication)
+        let places: Vec<&Place> = match arrangement {
+            Arrangement::Runs => Vec::new(),
+            Arrangement::Chapter => places(publication).collect(),
+        };
+        let missing = places
+            .iter()
             .filter(|place| shown.iter().all(|shown| shown.number != place.number));
         let numbers = Numbers {
-            missing: missing.cloned().collect(),
+            missing: missing.copied().cloned().collect(),
             runs: runs.iter().map(RunEntry::from_run).collect(),
             cards,
             figures: shown,
             replayed,
             shortfalls: runs.iter().flat_map(|run| run.shortfalls.clone()).collect(),
             unrecorded: runs.iter().flat_map(|run| run.unrecorded.clone()).collect(),
-            places: places(publication).count(),
+            places: places.len(),
+            arrangement,
         };
         Ok(Self { html, numbers })
     }
@@ -165,6 +196,7 @@ impl Report {
         name: &str,
         artefacts: &Artefacts,
         publication: &dyn Publication,
+        arrangement: Arrangement,
     ) -> Result<Self, ReportError> {
         let home = tempfile::tempdir().map_err(ReportError::Temporary)?;
         for (file, bytes) in artefacts {
@@ -178,7 +210,7 @@ impl Report {
             name: name.to_owned(),
             folder: home.path().to_owned(),
         };
-        Self::from_folders(&[source], publication)
+        Self::from_folders(&[source], publication, arrangement)
     }
 
     /// Figures as SVG and PNG, in `figures/`.
@@ -202,6 +234,7 @@ impl Report {
         artefacts.insert(NUMBERS_FILE.to_owned(), json(&self.numbers)?);
         let info = ReportInfo {
             head: Head::new(program, "report", None),
+            arrangement: self.numbers.arrangement,
             runs: &self.numbers.runs,
         };
         artefacts.insert(RUN_FILE.to_owned(), json(&info)?);
@@ -214,40 +247,55 @@ impl Report {
 struct ReportInfo<'a> {
     #[serde(flatten)]
     head: Head<&'static str>,
+    arrangement: Arrangement,
     runs: &'a [RunEntry],
 }
 
-/// Reads a folder and, of a publication's own result, the records within it that are not among those
-/// that the user `named`.
-fn read(
-    folder: Folder,
-    named: &BTreeSet<PathBuf>,
-    publication: &dyn Publication,
-) -> Result<Vec<Run>, ReportError> {
-    if let Some(published) = publication.read(&folder) {
-        let mut runs = vec![published?];
-        for inner in folder.records() {
-            let path = folder.path.join(&inner);
-            if !named.contains(&real(&path)) {
-                let name = format!("{}/{inner}", folder.name);
-                let inner = Folder::open(&name, &path, Given::Within)?;
-                runs.extend(read(inner, named, publication)?);
+/// How folders are read.
+struct Reading<'a> {
+    /// The folders that the user named.
+    named: &'a BTreeSet<PathBuf>,
+    publication: &'a dyn Publication,
+    arrangement: Arrangement,
+}
+
+impl Reading<'_> {
+    /// Reads a folder and, of a publication's own result, the records within it that the user did not
+    /// name.
+    fn read(&self, folder: Folder) -> Result<Vec<Run>, ReportError> {
+        if let Some(published) = self.publication.read(&folder) {
+            let mut runs = vec![published?];
+            for inner in folder.records() {
+                let path = folder.path.join(&inner);
+                if !self.named.contains(&real(&path)) {
+                    let name = format!("{}/{inner}", folder.name);
+                    runs.extend(self.read(Folder::open(&name, &path, Given::Within)?)?);
+                }
             }
+            return Ok(runs);
         }
-        return Ok(runs);
+        let run = match folder.head.command.as_str() {
+            "crawl run" | "pull run" | "reproduce crawl" | "reproduce pull" | "robot record" => {
+                let given = folder.given;
+                record::read(folder, &|joint| self.joint_range(given, joint))
+            }
+            "optimize" | "crawl frontier" => Run::search(folder, self.publication.gaits()),
+            "torque-map plot" => Run::map(folder),
+            other => Err(ReportError::OtherCommand {
+                found: other.to_owned(),
+                folder: folder.path,
+            }),
+        };
+        Ok(vec![run?])
     }
-    let run = match folder.head.command.as_str() {
-        "crawl run" | "pull run" | "reproduce crawl" | "reproduce pull" | "robot record" => {
-            record::read(folder, &|joint| publication.joint_range(joint))
+
+    /// The published range of a joint, where it belongs beside a record.
+    fn joint_range(&self, given: Given, joint: &str) -> Option<PublishedRange> {
+        match (self.arrangement, given) {
+            (Arrangement::Runs, Given::Named) => None,
+            (Arrangement::Chapter, _) | (_, Given::Within) => self.publication.joint_range(joint),
         }
-        "optimize" | "crawl frontier" => Run::search(folder, publication.gaits()),
-        "torque-map plot" => Run::map(folder),
-        other => Err(ReportError::OtherCommand {
-            found: other.to_owned(),
-            folder: folder.path,
-        }),
-    };
-    Ok(vec![run?])
+    }
 }
 
 impl RunEntry {

@@ -14,8 +14,10 @@ use prone_files::cycle_file;
 use prone_record::record_info::RecordInfo;
 use prone_record::recorded::{Recorded, RecordedModel, compiled_robot};
 use prone_report::export::{key_frames, numpy, ros_log, table, timeline, urdf};
+use prone_report::figures::PublishedRange;
 use prone_report::report::{
-    Folder, Publication, PublishedRun, Report, ReportError, Run, Source, Unpublished,
+    Arrangement, Folder, Part, Place, Publication, PublishedRun, Report, ReportError, Run, Source,
+    Unpublished,
 };
 use prone_report::view;
 
@@ -30,7 +32,7 @@ fn report(folder: &Path) -> Report {
         name: "RUN".to_owned(),
         folder: folder.to_owned(),
     };
-    Report::from_folders(&[source], &Unpublished).unwrap()
+    Report::from_folders(&[source], &Unpublished, Arrangement::Runs).unwrap()
 }
 
 /// How many messages each topic of an MCAP file has.
@@ -85,6 +87,99 @@ fn a_whole_record_is_shown_and_reported() {
     );
 }
 
+/// A report of one's own runs is of them: it is called after them, leads to them, and has neither
+/// numbers of a publication nor places for figures that no run has.
+#[test]
+fn a_report_by_run_mentions_nothing_but_the_runs() {
+    let home = folder(made::whole);
+    let source = |name: &str| Source {
+        name: name.to_owned(),
+        folder: home.path().to_owned(),
+    };
+    let report =
+        |arrangement| Report::from_folders(&[source("RUN")], &Chapter::new(), arrangement).unwrap();
+    let (own, chapter) = (report(Arrangement::Runs), report(Arrangement::Chapter));
+    assert!(own.html.contains("<h1>low-175 · level</h1>"));
+    assert!(
+        own.html
+            .contains("<title>low-175 · level: report of prone</title>")
+    );
+    assert!(chapter.html.contains("<h1>A chapter</h1>"));
+    assert_eq!(
+        (own.numbers.missing.len(), chapter.numbers.missing.len()),
+        (0, 1)
+    );
+    assert_eq!(chapter.numbers.chapter_figures(), 1);
+    for said in [
+        "class=\"place\"",
+        "Figure 31. ",
+        "What is published of it.",
+        "What was crawled.",
+        "is the book",
+        "obtained by eye",
+    ] {
+        assert!(chapter.html.contains(said), "{said}");
+        assert!(!own.html.contains(said), "{said}");
+    }
+    let figure = "<figure id=\"fig-31-low-175-angles\">";
+    assert_eq!(own.html.matches(figure).count(), 1);
+    for link in [
+        "section-replay",
+        "section-card",
+        "section-run-1",
+        "section-conditions",
+    ] {
+        for part in [format!("href=\"#{link}\""), format!("id=\"{link}\"")] {
+            assert_eq!(own.html.matches(&part).count(), 1, "{part}");
+        }
+    }
+    assert!(!chapter.html.contains("<nav"));
+}
+
+/// A publication of two figures, one of which a crawl has.
+struct Chapter([Part; 1]);
+
+impl Chapter {
+    fn new() -> Self {
+        let place = |number: &str| Place {
+            number: number.to_owned(),
+            shows: "angles".to_owned(),
+            command: None,
+            published: Some("What is published of it.".to_owned()),
+        };
+        Self([Part {
+            title: "A section".to_owned(),
+            lead: "What is in it.".to_owned(),
+            places: vec![place("31"), place("32")],
+        }])
+    }
+}
+
+impl Publication for Chapter {
+    fn title(&self) -> &'static str {
+        "A chapter"
+    }
+
+    fn name(&self) -> Option<&str> {
+        Some("the book")
+    }
+
+    fn crawled(&self) -> Option<&str> {
+        Some("What was crawled.")
+    }
+
+    fn parts(&self) -> &[Part] {
+        &self.0
+    }
+
+    fn joint_range(&self, _: &str) -> Option<PublishedRange> {
+        Some(PublishedRange {
+            angles: (-1.0, 1.0),
+            obtained: "Band: obtained by eye.",
+        })
+    }
+}
+
 /// What the page says of a record is what the record says of its origin.
 #[test]
 fn a_record_of_a_robot_is_not_called_a_simulation() {
@@ -93,13 +188,13 @@ fn a_record_of_a_robot_is_not_called_a_simulation() {
     assert_eq!(report.numbers.cards.len(), 1);
     let page = report.html.split("srcdoc=").next().unwrap();
     let after = report.html.rsplit("</iframe>").next().unwrap();
+    assert!(page.contains("Not simulated: RUN (the robot nao.local)."));
     for said in [
-        "Not simulated: RUN (the robot nao.local).",
         "RUN was not simulated: the robot nao.local.",
+        "a crawl with low-175. Source: the robot nao.local.",
     ] {
-        assert!(page.contains(said), "{said}");
+        assert!(after.contains(said), "{said}");
     }
-    assert!(after.contains("a crawl with low-175. Source: the robot nao.local."));
     for wrong in [
         "No robot",
         "is the thesis",
@@ -206,6 +301,10 @@ impl Publication for Study {
 }
 
 impl PublishedRun for Study {
+    fn title(&self) -> &'static str {
+        "A study"
+    }
+
     fn results(&self) -> Markup {
         html! {}
     }
@@ -235,7 +334,7 @@ fn a_folder_is_taken_once_however_often_it_is_named() {
         folder: folder.to_owned(),
     };
     let folders = |sources: &[Source]| -> Vec<String> {
-        let report = Report::from_folders(sources, &Study).unwrap();
+        let report = Report::from_folders(sources, &Study, Arrangement::Chapter).unwrap();
         assert_eq!(report.numbers.cards.len(), 1);
         let runs = report.numbers.runs.into_iter();
         runs.map(|run| run.folder).collect()

@@ -17,7 +17,7 @@ use prone_record::program::{Program, RobotInfo};
 use prone_record::recorded::Command;
 use prone_record::{contact_story, tables as record_tables};
 use prone_report::figure_list::FigureList;
-use prone_report::report::{PAGE_FILE, Report, ReportError};
+use prone_report::report::{Arrangement, PAGE_FILE, Report, ReportError};
 use prone_sim::crawl::CrawlError;
 use prone_sim::pull::PullError;
 use prone_sim::{LoadError, LoadedRobot, World, WorldError};
@@ -396,7 +396,7 @@ impl Study<'_> {
         let list = pictures(&world, &study, &info, table_result.as_ref(), &mut artefacts)?;
         list.finish(&mut artefacts)?;
         // The drawings are those of the report, made from the records as they will be read again.
-        let report = Report::from_artefacts(OWN_NAME, &artefacts, &Thesis)?;
+        let report = Report::from_artefacts(OWN_NAME, &artefacts, &Thesis, Arrangement::Chapter)?;
         artefacts.extend(report.figures()?);
         artefacts.insert(PAGE_FILE.into(), report.html.into_bytes());
         let crawling = table_result.map_or(0, |result| result.engine_steps);

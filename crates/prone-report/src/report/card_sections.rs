@@ -6,17 +6,17 @@ use prone::motor::HEAD_CARRIES;
 
 use super::card::Card;
 use super::html_table::{optional, percent};
-use super::publication::Publication;
 use super::rivals::{HEADS, RIVALS};
 use crate::figures::each_once;
 
-/// Cards of all crawls in one table, joints below; nothing without crawls.
-pub(super) fn all(cards: &[Card], publication: &dyn Publication) -> Markup {
+/// Cards of all crawls in one table, joints below; nothing without crawls. `crawled` is what is published
+/// of a crawl, to be read beside them.
+pub(super) fn all(cards: &[Card], crawled: Option<&str>) -> Markup {
     html! {
         @if !cards.is_empty() {
             section {
                 h2 { "Report card" }
-                (origins(cards, publication))
+                (origins(cards, crawled))
                 (figures(cards))
                 (verdicts(cards))
                 (joints(cards))
@@ -104,7 +104,7 @@ fn all_simulated(cards: &[Card]) -> bool {
 }
 
 /// Where the crawls come from, as their records say.
-fn origins(cards: &[Card], publication: &dyn Publication) -> Markup {
+fn origins(cards: &[Card], crawled: Option<&str>) -> Markup {
     let regimes = cards.iter().filter_map(|card| card.regime.as_deref());
     let regimes = each_once(regimes, &[]);
     html! {
@@ -117,7 +117,7 @@ fn origins(cards: &[Card], publication: &dyn Publication) -> Markup {
             }
             "Every line is a figure of the crawl's record, or one over another."
             @if all_simulated(cards) { " No robot crawled them." }
-            @if let Some(crawled) = publication.crawled() { " " (crawled) }
+            @if let Some(crawled) = crawled { " " (crawled) }
         }
     }
 }

@@ -1,26 +1,27 @@
-//! The page: its order, its figures, and what stands where a figure is not there.
+//! The page: what is on every page, and how much room its pictures and its replay have. `chapter` and
+//! `by_run` say what stands on it, and in which order.
+
+mod by_run;
+mod chapter;
 
 use std::collections::BTreeSet;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::folder::Given;
-use super::publication::{Part, Place, Publication};
+use super::publication::Publication;
 use super::replay::Replay;
 use super::run::{Content, PublishedRun};
 use super::shown::{Image, Shown};
-use super::{
-    Card, LARGEST_PAGE, ReportError, Run, card_sections, curve_tables, figure_html, places,
-    run_sections,
-};
+use super::{Arrangement, Card, LARGEST_PAGE, ReportError, Run, figure_html};
 use crate::figures::each_once;
 use crate::page_head;
 use crate::view::record::not_simulated;
 
 const STYLE: &str = include_str!("style.css");
 
-/// Number of the figure that shows what gaits are made of; their tables follow it.
-const CURVES: &str = "25";
+/// The replay, for links to it.
+const REPLAY: &str = "section-replay";
 
 /// What stands around the sections, at most, bytes; and in the place of a picture.
 const AROUND: usize = 4_000;
@@ -32,6 +33,7 @@ pub(super) struct Page<'a> {
     pub(super) shown: &'a [Shown],
     pub(super) cards: &'a [Card],
     pub(super) publication: &'a dyn Publication,
+    pub(super) arrangement: Arrangement,
     /// Names of the pictures for which it has no room.
     pub(super) left_out: BTreeSet<String>,
 }
@@ -51,7 +53,7 @@ impl Page<'_> {
         let replayed = replay
             .as_ref()
             .map_or_else(Vec::new, |replay| replay.shown.clone());
-        let title = format!("prone: report of {}", self.titles().join(", "));
+        let title = self.title();
         let page = html! {
             (DOCTYPE)
             html lang="en" {
@@ -73,6 +75,37 @@ impl Page<'_> {
         Ok((page.into_string(), replayed))
     }
 
+    /// What a browser calls the page.
+    fn title(&self) -> String {
+        match self.arrangement {
+            Arrangement::Runs => format!("{}: report of prone", self.holds()),
+            Arrangement::Chapter => format!("prone: report of {}", self.titles().join(", ")),
+        }
+    }
+
+    fn header(&self) -> Markup {
+        match self.arrangement {
+            Arrangement::Runs => self.by_run_header(),
+            Arrangement::Chapter => self.chapter_header(),
+        }
+    }
+
+    /// What is before the replay.
+    fn above(&self) -> Markup {
+        match self.arrangement {
+            Arrangement::Runs => self.by_run_above(),
+            Arrangement::Chapter => self.chapter_above(),
+        }
+    }
+
+    /// What is after it.
+    fn below(&self) -> Markup {
+        match self.arrangement {
+            Arrangement::Runs => self.by_run_below(),
+            Arrangement::Chapter => self.chapter_below(),
+        }
+    }
+
     /// The last pictures, as many as it takes to save so many bytes.
     fn last_pictures(&self, excess: usize) -> BTreeSet<String> {
         let mut saved = 0;
@@ -91,46 +124,22 @@ impl Page<'_> {
         last.map(|(shown, _)| shown.stem.clone()).collect()
     }
 
-    /// What is before the replay.
-    fn above(&self) -> Markup {
+    /// What is missing of the records because tables break off; nothing where they are whole.
+    fn shortfalls(&self) -> Markup {
         let shortfalls: Vec<&String> = self.runs.iter().flat_map(|run| &run.shortfalls).collect();
-        let unrecorded: Vec<&String> = self.runs.iter().flat_map(|run| &run.unrecorded).collect();
         html! {
             @if !shortfalls.is_empty() {
                 section.warning { (sentences("Records that are not whole", &shortfalls)) }
             }
+        }
+    }
+
+    /// What the records never had; nothing where they have all.
+    fn unrecorded(&self) -> Markup {
+        let unrecorded: Vec<&String> = self.runs.iter().flat_map(|run| &run.unrecorded).collect();
+        html! {
             @if !unrecorded.is_empty() {
                 section { (sentences("What was not recorded", &unrecorded)) }
-            }
-            @for run in self.published() { (run.results()) }
-            (card_sections::all(self.cards, self.publication))
-        }
-    }
-
-    /// What is after it.
-    fn below(&self) -> Markup {
-        html! {
-            @for part in self.publication.parts() { (self.part(part)) }
-            @for run in self.published() { (run.sections()) }
-            (run_sections::searches(self.runs))
-            (self.beyond())
-            (run_sections::what_was_run(self.runs))
-        }
-    }
-
-    fn header(&self) -> Markup {
-        let not_simulated = self.not_simulated();
-        html! {
-            header {
-                h1 { (self.publication.title()) }
-                p.lead {
-                    "Made from the records of " (self.titles().join("; ")) ". " (self.publication.lead().unwrap_or_default()) " "
-                    strong { "Ours" } " is what this program simulated; "
-                    @if let Some(name) = self.publication.name() { strong { "published" } " is " (name) "; " }
-                    strong { "theirs" } " is somebody else's. "
-                    @if not_simulated.is_empty() { "No robot took part." }
-                    @else { "Not simulated: " (not_simulated.join(", ")) "." }
-                }
             }
         }
     }
@@ -144,11 +153,16 @@ impl Page<'_> {
         records.collect()
     }
 
+    /// The runs that were named.
+    fn named(&self) -> impl Iterator<Item = &Run> {
+        let runs = self.runs.iter();
+        runs.filter(|run| run.folder.given == Given::Named)
+    }
+
     /// The folders that were named.
     fn titles(&self) -> Vec<String> {
-        let folders = self.runs.iter().map(|run| &run.folder);
-        let named = folders.filter(|folder| folder.given == Given::Named);
-        named
+        let folders = self.named().map(|run| &run.folder);
+        folders
             .map(|folder| format!("{} ({})", folder.name, folder.head.command))
             .collect()
     }
@@ -160,85 +174,13 @@ impl Page<'_> {
         })
     }
 
-    fn part(&self, part: &Part) -> Markup {
-        html! {
-            section {
-                h2 { (part.title) }
-                p { (part.lead) }
-                @for place in &part.places {
-                    (self.place(place))
-                    (self.tables_after(&place.number))
-                }
-            }
-        }
-    }
-
-    /// The figures of one number, or what would fill their place.
-    fn place(&self, place: &Place) -> Markup {
-        let figures: Vec<&Shown> = self
-            .shown
-            .iter()
-            .filter(|shown| shown.number == place.number)
-            .collect();
-        html! {
-            @if figures.is_empty() { (figure_html::empty(place)) }
-            // What is published stands below the first of several.
-            @for (index, figure) in figures.iter().enumerate() {
-                (self.captioned(figure, place.published.as_deref().filter(|_| index == 0)))
-            }
-        }
-    }
-
-    /// Tables of the chapter that follow a figure.
-    fn tables_after(&self, number: &str) -> Markup {
-        html! {
-            @for run in self.published() { (run.tables_after(number)) }
-            @if number == CURVES { (self.curves()) }
-        }
-    }
-
-    fn captioned(&self, figure: &Shown, published: Option<&str>) -> Markup {
+    /// A figure above its caption, or what stands in its place where the page has no room for it.
+    fn figure(&self, figure: &Shown, caption: &Markup) -> Markup {
         html! {
             figure id=(figure.stem) {
                 @if self.left_out.contains(&figure.stem) { (figure_html::left_out(figure)) }
                 @else { (figure_html::image(figure)) }
-                figcaption {
-                    strong {
-                        @if !figure.number.is_empty() { "Figure " (figure.number) ". " }
-                        (figure.title) ". "
-                    }
-                    (figure.caption)
-                    @if let Some(published) = published { " " (published) }
-                    @if self.runs.len() > 1 { " " span.run { "From " (figure.runs.join(", ")) "." } }
-                }
-            }
-        }
-    }
-
-    /// Figures that have no place in the publication.
-    fn beyond(&self) -> Markup {
-        let has_place = |number: &str| places(self.publication).any(|place| place.number == number);
-        let others = self.shown.iter();
-        let others: Vec<&Shown> = others.filter(|shown| !has_place(&shown.number)).collect();
-        html! {
-            @if !others.is_empty() {
-                section {
-                    @if self.publication.parts().is_empty() { h2 { "Figures" } }
-                    @else { h2 { "Beyond the chapter" } }
-                    @for figure in others { (self.captioned(figure, None)) }
-                    @if !has_place(CURVES) { (self.curves()) }
-                }
-            }
-        }
-    }
-
-    /// What gaits that were found are made of.
-    fn curves(&self) -> Markup {
-        html! {
-            @for run in self.runs {
-                @if let Content::Pulls(search) = &run.content {
-                    (curve_tables::found(&search.result.gait, &run.folder.name, &search.result.curves))
-                }
+                figcaption { (caption) }
             }
         }
     }
@@ -270,7 +212,7 @@ fn sentences(heading: &str, sentences: &[&String]) -> Markup {
 
 fn replay_section(replay: &Replay) -> Markup {
     html! {
-        section {
+        section id=(REPLAY) {
             h2 { "Replay" }
             @if replay.shown.is_empty() {
                 p { "The page has no room for a replay." }
@@ -293,7 +235,7 @@ fn replay_section(replay: &Replay) -> Markup {
 
 #[cfg(test)]
 mod tests {
-    use super::super::publication::Unpublished;
+    use super::super::publication::{Part, Place, Unpublished};
     use super::*;
 
     /// Two sections of four figures, the last of which takes a robot.
@@ -348,6 +290,7 @@ mod tests {
             shown,
             cards: &[],
             publication: &Chapter::new(),
+            arrangement: Arrangement::Chapter,
             left_out: BTreeSet::new(),
         };
         page.html().unwrap().0
@@ -378,6 +321,7 @@ mod tests {
             shown: &[],
             cards: &[],
             publication: &Unpublished,
+            arrangement: Arrangement::Chapter,
             left_out: BTreeSet::new(),
         };
         let (bare, _) = page.html().unwrap();
@@ -388,6 +332,7 @@ mod tests {
             shown: &shown,
             cards: &[],
             publication: &Unpublished,
+            arrangement: Arrangement::Chapter,
             left_out: BTreeSet::new(),
         };
         let (unplaced, _) = page.html().unwrap();

@@ -11,7 +11,7 @@ use maud::{Markup, html};
 use serde::Deserialize;
 
 use super::ReportError;
-use super::folder::Folder;
+use super::folder::{Folder, Given};
 use crate::figures::{Figure, GaitNumbers};
 use prone_record::figure_entry::FigureEntry;
 use prone_record::frontier::Frontier;
@@ -40,6 +40,9 @@ pub struct Run {
 
 /// A result of a publication's own command: what the page says of it beside its figures.
 pub trait PublishedRun: Send + Sync {
+    /// What was published, as a heading.
+    fn title(&self) -> &str;
+
     /// What stands first on the page.
     fn results(&self) -> Markup;
 
@@ -107,6 +110,22 @@ impl Run {
         run.recorded = recorded;
         run.facts = entries(&[("map", info.map)]);
         Ok(run)
+    }
+
+    /// What it holds, in a few words.
+    pub(super) fn title(&self) -> String {
+        match &self.content {
+            Content::Published(run) => run.title().to_owned(),
+            Content::Record(record) => record.replay.title().to_owned(),
+            Content::Pulls(search) => format!("{}, found by a search", search.result.gait),
+            Content::Cycles(result) => format!("Search of cycles for {}", result.objective.name()),
+            Content::Map => "Torque map".to_owned(),
+        }
+    }
+
+    /// Whether the user made it and named it: no result of a publication's own command, nor within one.
+    pub(super) fn is_own(&self) -> bool {
+        self.folder.given == Given::Named && !matches!(self.content, Content::Published(_))
     }
 
     /// The record that can be replayed, where it is one.

@@ -10,12 +10,7 @@ use super::run::{Content, Run};
 
 /// What searches found; nothing without searches.
 pub(super) fn searches(runs: &[Run]) -> Markup {
-    let searches = runs.iter().filter_map(|run| match &run.content {
-        Content::Pulls(search) => Some(pulls(&run.folder.name, search)),
-        Content::Cycles(result) => Some(found(&run.folder.name, result)),
-        Content::Published(_) | Content::Record(_) | Content::Map => None,
-    });
-    let searches: Vec<Markup> = searches.collect();
+    let searches: Vec<Markup> = runs.iter().filter_map(found).collect();
     html! {
         @if !searches.is_empty() {
             section {
@@ -23,6 +18,15 @@ pub(super) fn searches(runs: &[Run]) -> Markup {
                 @for search in &searches { (search) }
             }
         }
+    }
+}
+
+/// What a search found; nothing where the run is none.
+pub(super) fn found(run: &Run) -> Option<Markup> {
+    match &run.content {
+        Content::Pulls(search) => Some(pulls(&run.folder.name, search)),
+        Content::Cycles(result) => Some(cycles(&run.folder.name, result)),
+        Content::Published(_) | Content::Record(_) | Content::Map => None,
     }
 }
 
@@ -66,7 +70,7 @@ fn pulls(name: &str, search: &PullSearch) -> Markup {
 }
 
 /// A search of cycles: what each found, in the setting that was asked for.
-fn found(name: &str, result: &Frontier) -> Markup {
+fn cycles(name: &str, result: &Frontier) -> Markup {
     let first = |found: &Found, of: fn(&_) -> Option<f64>, decimals: usize| {
         let row = found.confirmed.settings.first();
         optional(row.and_then(of), |value| format!("{value:.decimals$}"))

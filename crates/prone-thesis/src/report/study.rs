@@ -48,6 +48,10 @@ pub(crate) fn read(folder: &Folder) -> Result<Run, ReportError> {
 }
 
 impl PublishedRun for StudyRun {
+    fn title(&self) -> &'static str {
+        "The Projected Profile crawl"
+    }
+
     fn results(&self) -> Markup {
         sections::results(&self.summary)
     }
