@@ -7,6 +7,7 @@ mod short_crawl;
 use std::collections::BTreeMap;
 use std::fs;
 
+use prone_report::export::urdf;
 use serde_json::Value;
 
 use exporting::{exported, read};
@@ -294,7 +295,14 @@ fn bullet_reads_the_robot() {
     let parts = |wanted: &dyn Fn(&Value) -> bool| -> usize {
         let chosen = shapes.iter().filter(|shape| wanted(shape));
         chosen
-            .map(|shape| if shape["type"] == "capsule" { 3 } else { 1 })
+            .map(|shape| match shape["type"].as_str().unwrap() {
+                "capsule" => 3,
+                "ellipsoid" => {
+                    let half: [f64; 3] = serde_json::from_value(shape["size"].clone()).unwrap();
+                    urdf::ellipsoid::balls(half.into()).len()
+                }
+                _ => 1,
+            })
             .sum()
     };
     assert_eq!(

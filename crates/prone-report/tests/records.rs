@@ -375,8 +375,9 @@ fn a_whole_record_is_exported_with_its_robot() {
     let text = urdf::from_record(robot, &model).unwrap();
     assert_eq!(text.matches("<link ").count(), robot.bodies.len());
     assert_eq!(text.matches("type=\"revolute\"").count(), joints);
-    // A capsule is three solids that are drawn and collide, an ellipsoid is drawn, a box collides.
-    assert_eq!(text.matches("<visual>").count(), 4);
+    // A capsule is three solids that are drawn and collide, an ellipsoid is drawn, as spheres, a box
+    // collides.
+    assert_eq!(text.matches("<visual>").count(), 3 + 37);
     assert_eq!(text.matches("<collision>").count(), 4);
     let cycle = cycle_file::parse("low-175.toml", &info.gait.text.unwrap()).unwrap();
     let scale = TimeScale::new(info.options.time_scale().unwrap()).unwrap();

@@ -3,8 +3,8 @@
 //! A link's frame lies where its hinge's axis passes; where a body of the model is hinged at its own
 //! origin, as all of the NAO's are, that is the body's frame, and the frames of a log's `/tf` are
 //! the links of this file. URDF has no capsule and no ellipsoid: a capsule is written as a cylinder
-//! and two spheres, which is the same solid, an ellipsoid as the box around it, which stands in for
-//! it and is never lower than the ellipsoid.
+//! and two spheres, which is the same solid, an ellipsoid as spheres inside it, whose hull is
+//! nearly the ellipsoid's.
 
 use std::fmt::Write as _;
 
@@ -14,6 +14,8 @@ use prone::robot::{Body, Robot};
 use prone_record::recorded::{Inertia, RecordedModel, RecordedShape};
 
 use crate::markup::escaped;
+
+pub mod ellipsoid;
 
 /// Groups of the engine that are drawn: 0 to 2.
 const DRAWN: std::ops::RangeInclusive<i32> = 0..=2;
@@ -45,7 +47,7 @@ pub fn from_record(robot: &Robot, model: &RecordedModel) -> Result<String, UrdfE
     }
     let mut text = format!(
         "<?xml version=\"1.0\"?>\n<!-- Made by prone {} from its MJCF model. Ellipsoids are written \
-         as the boxes around them: URDF has none. -->\n<robot name=\"{}\">\n",
+         as spheres inside them: URDF has none. -->\n<robot name=\"{}\">\n",
         env!("CARGO_PKG_VERSION"),
         escaped(&robot.name)
     );
@@ -169,10 +171,14 @@ fn solids(shape: &RecordedShape) -> Vec<(DVec3, String)> {
             (half * DVec3::Z, sphere(radius)),
             (half * DVec3::NEG_Z, sphere(radius)),
         ],
-        ("box" | "ellipsoid", &[x, y, z]) => {
+        ("box", &[x, y, z]) => {
             let edges = triple(2.0 * DVec3::new(x, y, z));
             vec![(DVec3::ZERO, format!("<box size=\"{edges}\"/>"))]
         }
+        ("ellipsoid", &[x, y, z]) => ellipsoid::balls(DVec3::new(x, y, z))
+            .iter()
+            .map(|ball| (ball.centre, sphere(ball.radius)))
+            .collect(),
         _ => Vec::new(),
     }
 }
