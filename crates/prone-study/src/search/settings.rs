@@ -21,11 +21,11 @@ const SLOW: f64 = 1.7;
 /// Seeds of calibration errors that show how far a cycle is thrown off without being steered: some
 /// that neither the corners nor any test uses.
 const OFF_SEED: u64 = 101;
-/// Turn a cycle at the largest command, rad: 10°.
-const TURN: f64 = 0.175;
-/// Turn a cycle at half the largest command, rad: 3°. What it turns more than that at the largest one
+/// Turn a cycle at the largest command, rad: 6°.
+const TURN: f64 = 0.105;
+/// Turn a cycle at half the largest command, rad: 2°. What it turns more than that at the largest one
 /// makes the command monotone.
-const HALF_TURN: f64 = 0.0524;
+const HALF_TURN: f64 = 0.035;
 /// Cycles in which a held heading shows how far the robot comes off its line: a metre or two.
 const HELD_CYCLES: usize = 6;
 /// Share of the advance that a search keeps where it has to hold: a confirmation asks for less.
@@ -155,7 +155,7 @@ pub fn for_advance(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
     compiled(robot, [plain(SettingKind::AsItIs, 2, Role::Value)])
 }
 
-/// What a search adds where its cycle has to be steered: it turns by 10° a cycle at the largest
+/// What a search adds where its cycle has to be steered: it turns by 6° a cycle at the largest
 /// command, and by less, but something, at half of it.
 ///
 /// # Errors
