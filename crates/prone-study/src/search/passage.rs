@@ -3,12 +3,15 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use prone::crawl::CrawlerError;
 use prone::gait::cycle::Cycle;
 use prone::robot::Robot;
+use prone_files::names::UnknownName;
 use prone_record::experiment::PassageSearch;
 use prone_record::frontier::CycleObjective;
 use prone_record::search::{Search, SearchEnd, Solver};
 use prone_sim::LoadedRobot;
+use prone_sim::crawl::CrawlError;
 use serde::Serialize;
 
 use super::candidates::Searched;
@@ -98,7 +101,7 @@ impl Passage {
                 Ok(trial) => passage.take(Tried::from_trial(cycle, &trial, ceiling), origin),
                 Err(error) => {
                     let name = cycle.name.clone();
-                    passage.refused.push((name, error.to_string()));
+                    passage.refused.push((name, reason(&error)));
                 }
             }
         }
@@ -159,6 +162,17 @@ impl Tried {
             peak_joint: trial.peak_over_limit.1.clone(),
         }
     }
+}
+
+/// Why a cycle cannot be crawled, with the joint that may have been meant.
+fn reason(error: &CrawlError) -> String {
+    let hint = match error {
+        CrawlError::Crawler(CrawlerError::Cycle { source, .. }) => {
+            UnknownName::hint_for_cycle(source)
+        }
+        _ => String::new(),
+    };
+    format!("{error}{hint}")
 }
 
 /// What is searched where no cycle fits: about the one that fits best under a height, m.
