@@ -19,7 +19,7 @@ pub(crate) fn print(shell: Shell) -> Result<(), Failure> {
     // Of the shells only bash goes on to files where no name fits, and all that has a name may be a
     // file too.
     if shell == Shell::Bash {
-        command = naming(command, &Gaits::OfEitherKind);
+        command = naming(command, Gaits::OfEitherKind);
     }
     clap_complete::generate(shell, &mut command, "prone", &mut script);
     let mut out = std::io::stdout().lock();
@@ -50,11 +50,11 @@ impl Gaits {
 
 /// A command, and those within it, with the names that its arguments may be given. This is for a
 /// script alone: as a parser it would refuse files.
-fn naming(command: Command, around: &Gaits) -> Command {
+fn naming(command: Command, around: Gaits) -> Command {
     let gaits = match command.get_name() {
         "crawl" => Gaits::Cycles,
         "cost" => Gaits::Pulls,
-        _ => *around,
+        _ => around,
     };
     let command = command.mut_args(|arg| {
         let value = arg.get_value_names().and_then(|names| names.first());
@@ -66,5 +66,5 @@ fn naming(command: Command, around: &Gaits) -> Command {
         };
         arg.value_parser(PossibleValuesParser::new(names))
     });
-    command.mut_subcommands(|within| naming(within, &gaits))
+    command.mut_subcommands(|within| naming(within, gaits))
 }
