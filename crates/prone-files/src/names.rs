@@ -2,13 +2,14 @@
 //!
 //! Gaits, scenes, robots and the parts of a robot are refused by the same error, so that every one
 //! of them comes with the name that is nearest. Near is what takes few edits: one in three letters
-//! of what was asked for, and three at most. Small and capital letters are the same here. Where
-//! nothing is near, a name that begins with what was asked for is taken.
+//! of what was asked for, and three at most. Two letters in each other's place are one edit; small
+//! and capital letters are the same. Where nothing is near, a name that begins with what was asked
+//! for is taken.
 
 use std::fmt;
 use std::path::Path;
 
-use strsim::levenshtein;
+use strsim::osa_distance;
 
 use prone::gait::cycle::CycleError;
 
@@ -186,7 +187,7 @@ fn stem(asked: &str) -> &str {
 fn nearest<'k>(asked: &str, known: &'k [String]) -> Option<&'k str> {
     let asked = asked.to_lowercase();
     let letters = asked.chars().count();
-    let edits = |name: &String| levenshtein(&name.to_lowercase(), &asked);
+    let edits = |name: &String| osa_distance(&name.to_lowercase(), &asked);
     let most = (letters / 3).clamp(1, MOST_EDITS);
     let near = known.iter().min_by_key(|name| edits(name));
     let near = near.filter(|name| edits(name) <= most);
@@ -216,6 +217,7 @@ mod tests {
             ("low175", Some("low-175")),
             ("LOW-165", Some("low-165")),
             ("gentel", Some("gentle")),
+            ("gnet", None),
             ("low", Some("low-200")),
             ("gallop", None),
             ("lo", None),

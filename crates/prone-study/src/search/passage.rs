@@ -105,6 +105,9 @@ impl Passage {
                 }
             }
         }
+        if passage.tried.is_empty() && !passage.refused.is_empty() {
+            "cycles that the robot cannot crawl".clone_into(&mut passage.limited_by);
+        }
         passage
     }
 
