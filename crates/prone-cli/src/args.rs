@@ -2,6 +2,7 @@
 
 mod crawl;
 mod export;
+pub(crate) mod list;
 mod named;
 pub(crate) mod optimize;
 pub(crate) mod passage;
@@ -46,6 +47,7 @@ Examples:
   prone view out/low --open               replay it in the browser
   prone report out/reproduce out/low      figures, report card and replay on one page
   prone export out/low --format mcap      the recorded crawl for other tools
+  prone list                              gaits, cycles, scenes and robots by name
   prone gait show nominal                 a gait's joints, limits and heights
   prone robot check robots/nao            validate a robot and print its chain")]
 pub(crate) struct Args {
@@ -69,6 +71,8 @@ pub(crate) enum Command {
     /// Look at gaits
     #[command(subcommand)]
     Gait(GaitCommand),
+    /// List gaits, cycles, scenes and robots by name
+    List(list::ListArgs),
     /// Look at robots
     #[command(subcommand)]
     Robot(RobotCommand),

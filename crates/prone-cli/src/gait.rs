@@ -9,13 +9,11 @@ use anyhow::anyhow;
 
 use prone::gait::{Gait, PhaseDuration};
 use prone::robot::Robot;
-use prone_files::gait_text::GaitText;
+use prone_files::gait_text::{GaitKind, GaitText};
 use prone_files::gaits::Gaits;
-use prone_files::text_file::ReadError;
-use prone_files::{cycle_file, gait_file, shipped, text_file};
+use prone_files::{cycle_file, gait_file};
 use prone_record::experiment::TextFile;
 use prone_record::single_file;
-use prone_sim::LoadedRobot;
 use prone_study::crawl::GaitSource;
 use prone_study::gait_sheet::{self, GaitSheet};
 
@@ -27,15 +25,12 @@ const PRINTED_EVERY: usize = 10;
 
 /// A pull by name, of the robot's own or of what ships, or the pull of a file; with its text.
 pub(crate) fn find(gaits: &Gaits, name: &str) -> Result<(Gait, TextFile), Failure> {
-    let named = gaits.find(name).map_err(Failure::input)?;
-    let gait = match named.filter(|gait| !gait.is_cycle()) {
-        Some(gait) => gait,
-        None => in_file(name)?.ok_or_else(|| {
-            let shipped = listed(shipped::gait_names());
-            let own = gaits.own_pulls().map(|own| own.join(", "));
-            unknown("gait", name, gaits, own, &shipped)
-        })?,
-    };
+    let gait = gaits.of_kind(GaitKind::Pull, name);
+    parse(&gait.map_err(Failure::input)?)
+}
+
+/// The pull of a gait's text.
+fn parse(gait: &GaitText) -> Result<(Gait, TextFile), Failure> {
     let text = TextFile::new(&gait.file, &gait.text);
     let gait = gait_file::parse(&gait.file, &gait.text).map_err(Failure::input)?;
     Ok((gait, text))
@@ -44,82 +39,17 @@ pub(crate) fn find(gaits: &Gaits, name: &str) -> Result<(Gait, TextFile), Failur
 /// A cycle by name, of the robot's own or of what ships, or the cycle of a file; with the text of its
 /// file.
 pub(crate) fn find_cycle(gaits: &Gaits, name: &str) -> Result<GaitSource, Failure> {
-    let gait = match gaits.find(name).map_err(Failure::input)? {
-        Some(gait) if gait.is_cycle() => gait,
-        Some(_) => {
-            return Err(Failure::Input(anyhow!(
-                "{name} is a pull alone: a crawl needs a cycle with its way back, one that ships with \
-                 prone ({}) or a file",
-                listed(shipped::cycle_names())
-            )));
-        }
-        None => in_file(name)?.ok_or_else(|| {
-            let shipped = listed(shipped::cycle_names());
-            let own = gaits.own_cycles().map(|own| own.join(", "));
-            unknown("cycle", name, gaits, own, &shipped)
-        })?,
-    };
+    let gait = gaits.of_kind(GaitKind::Cycle, name);
+    parse_cycle(gait.map_err(Failure::input)?)
+}
+
+/// The cycle of a gait's text.
+fn parse_cycle(gait: GaitText) -> Result<GaitSource, Failure> {
     Ok(GaitSource {
         cycle: cycle_file::parse(&gait.file, &gait.text).map_err(Failure::input)?,
         file: gait.file,
         text: gait.text.into_owned(),
     })
-}
-
-/// The file that a user names, if there is one.
-fn in_file(name: &str) -> Result<Option<GaitText>, Failure> {
-    let path = Path::new(name);
-    if !path.exists() {
-        return Ok(None);
-    }
-    GaitText::read(path).map(Some).map_err(Failure::input)
-}
-
-/// A name that is nowhere, with those that are.
-fn unknown(
-    noun: &str,
-    name: &str,
-    gaits: &Gaits,
-    own: Result<String, ReadError>,
-    shipped: &str,
-) -> Failure {
-    let own = match (gaits, own) {
-        (_, Err(error)) => return Failure::input(error),
-        (Gaits::Folder(folder), Ok(own)) if !own.is_empty() => {
-            format!("in {} ({own}), nor ", folder.display())
-        }
-        (_, Ok(_)) => String::new(),
-    };
-    Failure::Input(anyhow!(
-        "there is no {noun} {name:?}: it is neither {own}one that ships with prone ({shipped}) nor a file"
-    ))
-}
-
-fn listed(names: impl Iterator<Item = &'static str>) -> String {
-    names.collect::<Vec<_>>().join(", ")
-}
-
-/// A name that is neither a pull nor a cycle.
-fn unknown_to_all(name: &str, gaits: &Gaits) -> Failure {
-    let own = gaits.own_pulls().and_then(|pulls| {
-        let cycles = gaits.own_cycles()?;
-        Ok(by_kind(&pulls.join(", "), &cycles.join(", ")))
-    });
-    let (pulls, cycles) = (
-        listed(shipped::gait_names()),
-        listed(shipped::cycle_names()),
-    );
-    unknown("gait", name, gaits, own, &by_kind(&pulls, &cycles))
-}
-
-/// Names of pulls and cycles in a sentence, without a kind of which there are none.
-fn by_kind(pulls: &str, cycles: &str) -> String {
-    let kinds = [("pulls", pulls), ("cycles", cycles)];
-    let kinds = kinds.into_iter().filter(|(_, names)| !names.is_empty());
-    let kinds: Vec<String> = kinds
-        .map(|(kind, names)| format!("{kind}: {names}"))
-        .collect();
-    kinds.join("; ")
 }
 
 /// A pull's duration where none is asked for, s.
@@ -128,22 +58,20 @@ const DURATION_S: f64 = 5.0;
 pub(crate) fn show(args: &GaitShowArgs) -> Result<(), Failure> {
     let loaded = crate::robot::load(args.robot.name())?;
     let gaits = &loaded.files().gaits;
-    let name = args.gait.name();
-    let named = gaits.find(name).map_err(Failure::input)?;
-    if named.is_none() && !Path::new(name).exists() {
-        return Err(unknown_to_all(name, gaits));
+    let named = gaits.named(args.gait.name()).map_err(Failure::input)?;
+    let inputs = named.read.iter().chain(&loaded.files().read).cloned();
+    let inputs: Vec<PathBuf> = inputs.collect();
+    if named.is_cycle() {
+        return cycle::show(args, &loaded, &parse_cycle(named)?, &inputs);
     }
-    if named.map_or_else(|| is_cycle_file(name), |gait| gait.is_cycle()) {
-        return cycle::show(args, &loaded);
-    }
-    let (gait, _) = find(gaits, name)?;
+    let (gait, _) = parse(&named)?;
     let duration = match args.duration {
         Some(duration) => duration,
         None => PhaseDuration::new(DURATION_S).map_err(Failure::input)?,
     };
     let sheet = gait_sheet::of(loaded.robot(), &gait, duration).map_err(Failure::input)?;
     if let Some(path) = &args.csv {
-        write_csv(&sheet, path, &inputs(args, &loaded)?)?;
+        write_csv(&sheet, path, &inputs)?;
     }
     let mut out = std::io::stdout().lock();
     if args.json {
@@ -153,24 +81,6 @@ pub(crate) fn show(args: &GaitShowArgs) -> Result<(), Failure> {
     }
     print(&sheet, loaded.robot(), &mut out)?;
     Ok(())
-}
-
-/// Whether a file holds a cycle: the key that only a cycle has, at the beginning of a line.
-fn is_cycle_file(name: &str) -> bool {
-    let text = text_file::read(Path::new(name));
-    text.is_ok_and(|text| {
-        text.lines()
-            .any(|line| line.trim_start().starts_with("[pull"))
-    })
-}
-
-/// The files that were read.
-fn inputs(args: &GaitShowArgs, loaded: &LoadedRobot) -> Result<Vec<PathBuf>, Failure> {
-    let files = loaded.files();
-    let name = args.gait.name();
-    let named = files.gaits.find(name).map_err(Failure::input)?;
-    let gait = named.map_or_else(|| Some(PathBuf::from(name)), |gait| gait.read);
-    Ok(gait.into_iter().chain(files.read.iter().cloned()).collect())
 }
 
 fn write_csv(sheet: &GaitSheet, path: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {

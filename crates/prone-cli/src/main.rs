@@ -5,6 +5,7 @@
 //! was cut off), 130 stopped by the user.
 
 mod args;
+mod completions;
 mod cost;
 mod crawl;
 mod cycle_search;
@@ -13,6 +14,8 @@ mod export;
 mod failure;
 mod gait;
 mod interrupt;
+mod list;
+mod misnamed;
 mod optimize;
 mod passage;
 mod plan;
@@ -26,17 +29,18 @@ mod robot;
 mod torque_map;
 mod view;
 
-use std::io::Write as _;
 use std::process::ExitCode;
-
-use clap::{CommandFactory, Parser};
 
 use args::{Args, Command, GaitCommand, RobotCommand, TorqueMapCommand};
 use failure::Failure;
 use prone_record::program::Program;
 
 fn main() -> ExitCode {
-    match run(Args::parse()) {
+    let args = match misnamed::parse(std::env::args_os()) {
+        Ok(args) => args,
+        Err(error) => error.exit(),
+    };
+    match run(args) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(),
     }
@@ -52,6 +56,7 @@ fn run(args: Args) -> Result<(), Failure> {
         Command::Gait(GaitCommand::Show(args)) => gait::show(&args),
         Command::Robot(RobotCommand::Check(args)) => robot::check(&args),
         Command::Robot(RobotCommand::Compile(args)) => robot::compile::run(&args),
+        Command::List(args) => list::run(&args),
         Command::Report(args) => report::run(&args),
         Command::TorqueMap(TorqueMapCommand::Build(args)) => {
             dispatch::carry_out(&torque_map::build::plan(&args)?)
@@ -59,7 +64,7 @@ fn run(args: Args) -> Result<(), Failure> {
         Command::TorqueMap(TorqueMapCommand::Compare(args)) => torque_map::compare::run(&args),
         Command::TorqueMap(TorqueMapCommand::Plot(args)) => torque_map::plot::run(&args),
         Command::View(args) => view::run(&args),
-        Command::Completions { shell } => completions(shell),
+        Command::Completions { shell } => completions::print(shell),
     }
 }
 
@@ -69,14 +74,4 @@ pub(crate) fn program() -> Program {
         version: env!("CARGO_PKG_VERSION").into(),
         commit: env!("PRONE_COMMIT").into(),
     }
-}
-
-fn completions(shell: clap_complete::Shell) -> Result<(), Failure> {
-    // Into memory first: the generator panics where it cannot write.
-    let mut script = Vec::new();
-    clap_complete::generate(shell, &mut Args::command(), "prone", &mut script);
-    let mut out = std::io::stdout().lock();
-    out.write_all(&script)?;
-    out.flush()?;
-    Ok(())
 }

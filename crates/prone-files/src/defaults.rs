@@ -19,6 +19,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use crate::error::{FileError, Source};
+use crate::gait_text::GaitKind;
 use crate::plain_name;
 
 /// Most names of a list.
@@ -83,24 +84,6 @@ struct CycleTable {
 
 type Names = Spanned<Vec<Spanned<String>>>;
 
-/// What a name of `[defaults]` must be the name of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Kind {
-    /// A pull.
-    Pull,
-    /// A whole cycle.
-    Cycle,
-}
-
-impl Kind {
-    pub(crate) const fn noun(self) -> &'static str {
-        match self {
-            Self::Pull => "pull",
-            Self::Cycle => "cycle",
-        }
-    }
-}
-
 impl DefaultsTable {
     /// Refuses what no table can say: names that are paths, lists that are too long, and empty
     /// ones where one gait is needed.
@@ -127,7 +110,7 @@ impl DefaultsTable {
     }
 
     /// Every name, with what it must be the name of.
-    pub(crate) fn names(&self) -> impl Iterator<Item = (Kind, &Spanned<String>)> {
+    pub(crate) fn names(&self) -> impl Iterator<Item = (GaitKind, &Spanned<String>)> {
         fn all(names: Option<&Names>) -> impl Iterator<Item = &Spanned<String>> {
             names.into_iter().flat_map(Spanned::get_ref)
         }
@@ -139,8 +122,8 @@ impl DefaultsTable {
             .chain(all(cycle.compared.as_ref()))
             .chain(all(cycle.under.as_ref()));
         pulls
-            .map(|name| (Kind::Pull, name))
-            .chain(cycles.map(|name| (Kind::Cycle, name)))
+            .map(|name| (GaitKind::Pull, name))
+            .chain(cycles.map(|name| (GaitKind::Cycle, name)))
     }
 
     fn lists(&self) -> impl Iterator<Item = &Names> {

@@ -29,6 +29,15 @@ use crate::curve_table::{self, CurveTable};
 use crate::error::{FileError, Source};
 use crate::plain_name::is_plain;
 
+/// Tables that a gait file has at its top and a cycle file has not.
+const OF_PULLS: [&str; 3] = ["knee", "hip", "upper_arm"];
+
+/// Whether a text is that of a gait file, whole or not: it has a curve of a chain angle.
+pub(crate) fn is_pull(text: &str) -> bool {
+    let table = toml::from_str::<toml::Table>(text);
+    table.is_ok_and(|table| OF_PULLS.iter().any(|key| table.contains_key(*key)))
+}
+
 /// Reads a gait from the text of a gait file; `file` is the name that errors carry.
 pub fn parse(file: &str, text: &str) -> Result<Gait, FileError> {
     let source = Source { file, text };

@@ -4,10 +4,12 @@
 //! without one. A file is looked at when its name is asked for, so that one which is broken is in
 //! nobody's way.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::gait_text::GaitText;
+use crate::gait_text::{GaitKind, GaitText};
+use crate::names::{NameKind, UnknownName};
 use crate::plain_name::is_plain;
 use crate::shipped::{self, FamilySource};
 use crate::text_file::ReadError;
@@ -28,6 +30,31 @@ pub enum Gaits {
     Shipped(&'static FamilySource),
     /// In a folder.
     Folder(PathBuf),
+}
+
+/// Why there is no gait for what a user typed.
+#[derive(Debug, thiserror::Error)]
+pub enum GaitLookupError {
+    /// There is a file that cannot be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// Nothing is named so, and no file lies there.
+    #[error(transparent)]
+    Unknown(#[from] UnknownName),
+    /// A pull was named where a cycle is needed.
+    #[error("{asked} is a pull alone; a crawl needs a cycle with its way back")]
+    PullAlone {
+        /// The name or the path.
+        asked: String,
+    },
+    /// A cycle was named where a pull is needed.
+    #[error(
+        "{asked} is a whole cycle; a pull alone is needed here (`prone crawl run` tells what a cycle costs)"
+    )]
+    WholeCycle {
+        /// The name or the path.
+        asked: String,
+    },
 }
 
 impl Gaits {
@@ -62,6 +89,69 @@ impl Gaits {
                 GaitText::read(&path).map(Some)
             }
         }
+    }
+
+    /// The gait that a user names: by its name, as [`Gaits::find`] takes it, or else by its file.
+    ///
+    /// # Errors
+    /// [`GaitLookupError`] where there is neither.
+    pub fn named(&self, asked: &str) -> Result<GaitText, GaitLookupError> {
+        self.named_as(NameKind::Gait, asked)
+    }
+
+    /// The gait that a user names where one kind of gait is needed. What holds no gait of either
+    /// kind is left to whoever parses it, and says what is missing.
+    ///
+    /// # Errors
+    /// [`GaitLookupError`] where there is none, or it is of the other kind.
+    pub fn of_kind(&self, kind: GaitKind, asked: &str) -> Result<GaitText, GaitLookupError> {
+        let gait = self.named_as(kind.name_kind(), asked)?;
+        let asked = || asked.to_owned();
+        match (kind, gait.kind()) {
+            (GaitKind::Cycle, Some(GaitKind::Pull)) => {
+                Err(GaitLookupError::PullAlone { asked: asked() })
+            }
+            (GaitKind::Pull, Some(GaitKind::Cycle)) => {
+                Err(GaitLookupError::WholeCycle { asked: asked() })
+            }
+            _ => Ok(gait),
+        }
+    }
+
+    fn named_as(&self, kind: NameKind, asked: &str) -> Result<GaitText, GaitLookupError> {
+        if let Some(gait) = self.find(asked)? {
+            return Ok(gait);
+        }
+        let path = Path::new(asked);
+        if !path.exists() {
+            return Err(UnknownName::new(kind, asked, self.names(kind)?).into());
+        }
+        Ok(GaitText::read(path)?)
+    }
+
+    /// Names by which gaits of a kind are found, the robot's own first; none of what is no gait.
+    ///
+    /// # Errors
+    /// [`ReadError`] where the folder or one of its files cannot be read.
+    pub fn names(&self, kind: NameKind) -> Result<Vec<String>, ReadError> {
+        let (pulls, cycles) = match kind {
+            NameKind::Gait => (true, true),
+            NameKind::Pull => (true, false),
+            NameKind::Cycle => (false, true),
+            _ => (false, false),
+        };
+        let mut names = Vec::new();
+        if pulls {
+            names.extend(self.own_pulls()?);
+            names.extend(shipped::gait_names().map(str::to_owned));
+        }
+        if cycles {
+            names.extend(self.own_cycles()?);
+            names.extend(shipped::cycle_names().map(str::to_owned));
+        }
+        let mut seen = BTreeSet::new();
+        names.retain(|name| seen.insert(name.clone()));
+        Ok(names)
     }
 
     /// Names of the robot's own pulls: as they ship, or in the order of their names.
@@ -158,6 +248,44 @@ mod tests {
         assert_eq!(gaits.own_pulls().unwrap(), ["ours"]);
         assert_eq!(gaits.own_cycles().unwrap(), ["a", "low-175"]);
         assert!(Gaits::None.own_pulls().unwrap().is_empty());
+    }
+
+    #[test]
+    fn what_a_user_names_is_found_by_name_or_file() {
+        let (home, gaits) = folder();
+        let file = home.path().join("gaits/a.toml");
+        let file = file.to_str().unwrap();
+        let cycle = gaits.of_kind(GaitKind::Cycle, file).unwrap();
+        assert_eq!(cycle.text, gaits.named("a").unwrap().text);
+        assert_eq!(cycle.kind(), Some(GaitKind::Cycle));
+        assert_eq!(gaits.named("ours").unwrap().kind(), Some(GaitKind::Pull));
+        // What holds no gait is for the parser to refuse.
+        let outside = home.path().join("outside.toml");
+        let outside = gaits.of_kind(GaitKind::Pull, outside.to_str().unwrap());
+        assert_eq!(outside.unwrap().kind(), None);
+    }
+
+    #[test]
+    fn a_gait_of_the_other_kind_is_called_so() {
+        let (home, gaits) = folder();
+        let said = |kind, asked: &str| gaits.of_kind(kind, asked).unwrap_err().to_string();
+        assert_eq!(
+            said(GaitKind::Cycle, "ours"),
+            "ours is a pull alone; a crawl needs a cycle with its way back"
+        );
+        assert!(said(GaitKind::Pull, "low-175").starts_with("low-175 is a whole cycle; "));
+        let pull = home.path().join("gaits/ours.toml");
+        let pull = pull.to_str().unwrap();
+        assert!(said(GaitKind::Cycle, pull).starts_with(&format!("{pull} is a pull alone; ")));
+        // Only names of the kind that is needed are offered.
+        let offered =
+            "there is no cycle \"low-174\"; did you mean \"low-175\"? `prone list` shows all";
+        assert_eq!(said(GaitKind::Cycle, "low-174"), offered);
+        assert!(!said(GaitKind::Pull, "low-174").contains("low-175"));
+        // A robot's own are offered too.
+        assert!(said(GaitKind::Pull, "our").contains("\"ours\""));
+        let names = gaits.names(NameKind::Cycle).unwrap();
+        assert_eq!(names.iter().filter(|name| *name == "low-175").count(), 1);
     }
 
     #[test]

@@ -15,6 +15,7 @@ mod family_file;
 pub mod gait_file;
 pub mod gait_text;
 pub mod gaits;
+pub mod names;
 pub mod plain_name;
 pub mod robot_file;
 pub mod robot_folder;

@@ -14,10 +14,12 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::defaults::{Defaults, DefaultsTable, Kind};
+use crate::defaults::{Defaults, DefaultsTable};
 use crate::error::Source;
 use crate::family_file::FamilyFile;
+use crate::gait_text::GaitKind;
 use crate::gaits::Gaits;
+use crate::names::{NameKind, UnknownName};
 use crate::plain_name::is_plain;
 use crate::robot_file::{Name, RobotFile};
 use crate::shipped::{self, RobotSource};
@@ -83,12 +85,16 @@ pub enum RobotFolderError {
         folder: String,
     },
     /// There is no such robot.
+    #[error(transparent)]
+    Unknown(#[from] UnknownName),
+    /// The folder of a robot that ships was named, and it is not there.
     #[error(
-        "there is no robot {name:?}: it is neither one that ships with prone ({}) nor a folder",
-        shipped::robot_names().collect::<Vec<_>>().join(", ")
+        "there is no folder {folder:?}; that robot is built in, and needs none: its name is {name:?}"
     )]
-    Unknown {
-        /// What was named.
+    BuiltIn {
+        /// The folder.
+        folder: String,
+        /// The robot's name.
         name: String,
     },
 }
@@ -123,9 +129,19 @@ impl RobotFiles {
         }
         match name.to_str().and_then(shipped::robot) {
             Some(shipped) => Ok(Self::shipped(shipped?)),
-            None => Err(RobotFolderError::Unknown {
-                name: name.display().to_string(),
-            }),
+            None => Err(Self::unknown(name)),
+        }
+    }
+
+    /// Why nothing is named so.
+    fn unknown(named: &Path) -> RobotFolderError {
+        let asked = named.display().to_string();
+        match shipped::robot_of_folder(named) {
+            Some(name) => RobotFolderError::BuiltIn {
+                folder: asked,
+                name,
+            },
+            None => UnknownName::new(NameKind::Robot, &asked, shipped::robot_names()).into(),
         }
     }
 
@@ -359,9 +375,9 @@ fn check_names(
     for (kind, name) in table.names() {
         let is = gaits.find(name.get_ref())?.map(|gait| {
             if gait.is_cycle() {
-                Kind::Cycle
+                GaitKind::Cycle
             } else {
-                Kind::Pull
+                GaitKind::Pull
             }
         });
         let message = match is {
@@ -369,10 +385,13 @@ fn check_names(
             Some(is) => format!(
                 "{} is a {}, not a {}",
                 name.get_ref(),
-                is.noun(),
-                kind.noun()
+                is.name_kind().noun(),
+                kind.name_kind().noun()
             ),
-            None => format!("there is no gait {:?}", name.get_ref()),
+            None => {
+                let known = gaits.names(kind.name_kind())?;
+                UnknownName::new(kind.name_kind(), name.get_ref(), known).to_string()
+            }
         };
         return Err(source.error(name.span(), message).into());
     }

@@ -1,5 +1,7 @@
 //! What ships inside the program: families of robots with their versions and gaits, and scenes.
 
+use std::path::Path;
+
 use prone::gait::Gait;
 use prone::gait::cycle::Cycle;
 use prone::scene::Scene;
@@ -203,6 +205,18 @@ pub fn robot_names() -> impl Iterator<Item = String> {
         let versions = versions.map(|robot| format!("{}/{}", family.name, robot.version));
         std::iter::once(family.name.to_owned()).chain(versions)
     })
+}
+
+/// The name of the shipped robot, or family, whose folder in the repository ends a path.
+pub(crate) fn robot_of_folder(path: &Path) -> Option<String> {
+    let versions = families().flat_map(|family| {
+        let versions = family.versions.iter();
+        versions.map(|robot| (robot.folder, format!("{}/{}", family.name, robot.version)))
+    });
+    let named = families().map(|family| (family.folder, family.name.to_owned()));
+    let mut folders = named.chain(versions);
+    let (_, name) = folders.find(|(folder, _)| path.ends_with(folder))?;
+    Some(name)
 }
 
 /// The gaits of a robot that says some of them; the others are those of the first family.

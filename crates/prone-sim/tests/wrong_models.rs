@@ -371,7 +371,7 @@ const TABLES: &[Refusal] = &[
     (
         "site = \"imu\"",
         "site = \"inu\"",
-        "nao/robot.toml:363:8: site inu is not in nao/robot.xml; did you mean imu?",
+        "nao/robot.toml:363:8: there is no site \"inu\" in nao/robot.xml; did you mean \"imu\"?",
     ),
     (
         "site = \"imu\"",

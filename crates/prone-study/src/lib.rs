@@ -4,6 +4,7 @@
 //! searches, [`torque_map`] measures maps, [`export`] takes films; [`watch`] is how whoever waits for
 //! them is told.
 
+pub mod catalogue;
 pub mod crawl;
 pub mod export;
 pub mod frames;

@@ -2,6 +2,7 @@
 
 use anyhow::anyhow;
 
+use prone_files::names::{NameKind, UnknownName};
 use prone_files::{shipped, text_file};
 use prone_record::experiment::{
     CrawlExperiment, Detail, Ending, GaitText, RobotText, SceneChoice, SceneText, ServoChoice,
@@ -85,10 +86,11 @@ fn scene_text(name: &str) -> Result<SceneText, Failure> {
     }
     let path = std::path::Path::new(name);
     if !path.exists() {
-        let known: Vec<_> = shipped::scene_names().collect();
-        return Err(Failure::Input(anyhow!(
-            "there is no scene {name:?}: it is neither one that ships with prone ({}) nor a file",
-            known.join(", ")
+        let known = shipped::scene_names();
+        return Err(Failure::input(UnknownName::new(
+            NameKind::Scene,
+            name,
+            known,
         )));
     }
     let text = text_file::read(path)

@@ -1,6 +1,7 @@
 //! `prone gait show` of a whole cycle: its pull, then the way back.
 
 use std::io::Write;
+use std::path::PathBuf;
 
 use anyhow::anyhow;
 use serde_json::json;
@@ -8,21 +9,26 @@ use serde_json::json;
 use prone::gait::cycle::{CheckedCycle, Cycle, TimeScale};
 use prone::robot::Robot;
 use prone_sim::LoadedRobot;
+use prone_study::crawl::GaitSource;
 use prone_study::gait_sheet::{self, GaitSheet};
 
-use super::find_cycle;
 use crate::Failure;
 use crate::args::GaitShowArgs;
 
-pub(super) fn show(args: &GaitShowArgs, loaded: &LoadedRobot) -> Result<(), Failure> {
-    let source = find_cycle(&loaded.files().gaits, args.gait.name())?;
+/// Shows a cycle on a robot; `inputs` are the files that were read.
+pub(super) fn show(
+    args: &GaitShowArgs,
+    loaded: &LoadedRobot,
+    source: &GaitSource,
+    inputs: &[PathBuf],
+) -> Result<(), Failure> {
     let cycle = &source.cycle;
     let robot = loaded.robot();
     let checked = CheckedCycle::plan(robot, &robot.stops(), cycle, 0.0, TimeScale::ONE)
         .map_err(|error| Failure::input(source.refused(&error)))?;
     let sheet = sheet(args, cycle, robot)?;
     match (&args.csv, &sheet) {
-        (Some(path), Some(sheet)) => super::write_csv(sheet, path, &super::inputs(args, loaded)?)?,
+        (Some(path), Some(sheet)) => super::write_csv(sheet, path, inputs)?,
         (Some(_), None) => {
             return Err(Failure::Input(anyhow!(
                 "{} has no pull: --csv writes the table of one",

@@ -206,7 +206,7 @@ fn defaults_name_gaits_that_there_are() {
     for (line, expected) in [
         (
             "[defaults.pull]\nfrom = \"their\"",
-            "4:8: there is no gait \"their\"",
+            "4:8: there is no pull \"their\"; `prone list` shows all",
         ),
         (
             "[defaults.pull]\nfrom = \"low\"",
@@ -234,6 +234,18 @@ fn a_robot_that_ships_is_known_by_name() {
         .to_string();
     assert_eq!(
         message,
-        "there is no robot \"nao/v0\": it is neither one that ships with prone (nao, nao/v4, nao/v5, nao/scene) nor a folder"
+        "there is no robot \"nao/v0\"; did you mean \"nao/v4\"? `prone list` shows all"
     );
+    for (folder, name) in [
+        ("robots/nao/", "nao"),
+        ("elsewhere/robots/nao/v5", "nao/v5"),
+    ] {
+        let message = RobotFiles::named(Path::new(folder))
+            .unwrap_err()
+            .to_string();
+        let built_in = format!(
+            "there is no folder {folder:?}; that robot is built in, and needs none: its name is {name:?}"
+        );
+        assert_eq!(message, built_in);
+    }
 }

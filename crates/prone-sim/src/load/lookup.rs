@@ -3,10 +3,9 @@
 
 use std::fmt::Display;
 
-use strsim::levenshtein;
-
 use prone::robot::{Body, BodyId, Joint, JointId, Range, bounds};
 use prone_files::FileError;
+use prone_files::names::{NameKind, UnknownName};
 use prone_files::robot_file::{Name, Placed, RobotFile};
 
 use super::model::{Parts, Site};
@@ -28,7 +27,7 @@ impl Lookup<'_> {
     fn find<'n>(
         &self,
         place: &Name,
-        kind: &str,
+        kind: NameKind,
         mut known: impl Iterator<Item = &'n str> + Clone,
     ) -> Result<usize, FileError> {
         let name = place.get_ref();
@@ -36,30 +35,23 @@ impl Lookup<'_> {
         if let Some(index) = known.position(|known| known == name) {
             return Ok(index);
         }
-        let nearest = all.min_by_key(|candidate| levenshtein(candidate, name));
-        let hint = match nearest {
-            Some(nearest) if levenshtein(nearest, name) <= 3 => {
-                format!("; did you mean {nearest}?")
-            }
-            _ => String::new(),
-        };
-        let message = format!("{kind} {name} is not in {}{hint}", self.mjcf);
-        Err(self.error(place, message))
+        let unknown = UnknownName::new(kind, name, all).within(self.mjcf);
+        Err(self.error(place, unknown))
     }
 
     pub(super) fn joint(&self, name: &Name, joints: &[Joint]) -> Result<JointId, FileError> {
         let known = joints.iter().map(|joint| joint.name.as_str());
-        self.find(name, "joint", known).map(JointId)
+        self.find(name, NameKind::Joint, known).map(JointId)
     }
 
     pub(super) fn body(&self, name: &Name, bodies: &[Body]) -> Result<BodyId, FileError> {
         let known = bodies.iter().map(|body| body.name.as_str());
-        self.find(name, "body", known).map(BodyId)
+        self.find(name, NameKind::Body, known).map(BodyId)
     }
 
     pub(super) fn site<'p>(&self, name: &Name, parts: &'p Parts) -> Result<&'p Site, FileError> {
         let known = parts.sites.keys().map(String::as_str);
-        self.find(name, "site", known)?;
+        self.find(name, NameKind::Site, known)?;
         Ok(&parts.sites[name.get_ref()])
     }
 

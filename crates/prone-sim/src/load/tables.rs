@@ -13,6 +13,7 @@ use prone::robot::{
     Robot, SideLayout, StudySetup, bounds, check_limbs,
 };
 use prone_files::FileError;
+use prone_files::names::{NameKind, UnknownName};
 use prone_files::robot_file::{
     ChainTable, ContactTable, DriveTable, FixedArmTable, MotorTable, Name, PublishedTable,
     RobotFile, SideTable, StudyTable,
@@ -188,8 +189,8 @@ impl Lookup<'_> {
             return Ok(None);
         };
         let Some(motor) = motors.get(name.get_ref()) else {
-            let message = format!("motor {} is not in [motors]", name.get_ref());
-            return Err(self.error(name, message));
+            let unknown = UnknownName::new(NameKind::Motor, name.get_ref(), motors.keys());
+            return Err(self.error(name, unknown.within("[motors]")));
         };
         let Some(ratio) = drive.ratio else {
             return Err(self.error(name, "a drive with a motor needs its ratio"));
@@ -289,8 +290,8 @@ impl Lookup<'_> {
     ) -> Result<StudySetup, FileError> {
         let start = &table.start_posture;
         if !postures.contains_key(start.get_ref()) {
-            let message = format!("posture {} is not in [postures]", start.get_ref());
-            return Err(self.error(start, message));
+            let unknown = UnknownName::new(NameKind::Posture, start.get_ref(), postures.keys());
+            return Err(self.error(start, unknown.within("[postures]")));
         }
         let mut stops = Vec::new();
         for (name, &[lower, upper]) in &table.stops_rad {

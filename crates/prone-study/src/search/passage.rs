@@ -16,9 +16,12 @@ mod search;
 pub use candidate::{Candidate, FailedCorner};
 pub use search::{candidates, search};
 
+use prone::crawl::CrawlerError;
 use prone::gait::cycle::Cycle;
 use prone::scene::Scene;
+use prone_files::names::UnknownName;
 use prone_sim::LoadedRobot;
+use prone_sim::crawl::CrawlError;
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -231,7 +234,7 @@ impl Passage {
         let lowest = self.candidates.iter();
         let lowest = lowest.min_by(|a, b| a.open_top_mm.total_cmp(&b.open_top_mm));
         lowest.map_or_else(
-            || "no cycle could be crawled".to_owned(),
+            || "cycles that the robot cannot crawl".to_owned(),
             |lowest| {
                 format!(
                     "the {}: {:.1} mm high in {}, the lowest cycle tried, and {:.1} mm are left",
@@ -257,10 +260,10 @@ fn ideal(
     watch: &dyn Watch,
 ) -> Result<(Candidate, Attempt), String> {
     let (cycle, under) = (offered.cycle, plates.under);
-    let trial = try_out(&plates.open, cycle).map_err(|error| error.to_string())?;
+    let trial = try_out(&plates.open, cycle).map_err(|error| reason(&error))?;
     let stopped = || watch.stop();
     let run = attempt(&plates.ideal, cycle, plates.way(trial.advance), &stopped);
-    let run = run.map_err(|error| error.to_string())?;
+    let run = run.map_err(|error| reason(&error))?;
     watch.progress(&Progress::Done(1));
     let candidate = Candidate::new(offered, &trial, &run, under);
     Ok((candidate, run))
@@ -299,6 +302,17 @@ fn through_corners(
     }
     candidate.robust = Some(true);
     candidate.corners_passed = got_through;
+}
+
+/// Why a cycle cannot be crawled, with the joint that may have been meant.
+fn reason(error: &CrawlError) -> String {
+    let hint = match error {
+        CrawlError::Crawler(CrawlerError::Cycle { source, .. }) => {
+            UnknownName::hint_for_cycle(source)
+        }
+        _ => String::new(),
+    };
+    format!("{error}{hint}")
 }
 
 /// A length in mm, to the micrometre: what was typed comes back as it was typed.

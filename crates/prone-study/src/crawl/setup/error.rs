@@ -3,6 +3,7 @@
 use prone::gait::cycle::{CycleError, TimeScaleError};
 use prone::motor::UnknownMotor;
 use prone::scene::SceneError;
+use prone_files::names::UnknownName;
 use prone_record::experiment::{ChangedText, Limit, TextError};
 use prone_sim::crawl::{CrawlError, LimbsError, ROW_STEP};
 use prone_sim::{LoadError, WorldError};
@@ -108,7 +109,7 @@ pub enum CrawlSetupError {
 
 /// A cycle that the robot cannot crawl, with its place where it is a user's.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("{}{source}", in_place(place.as_deref()))]
+#[error("{}{source}{}", in_place(place.as_deref()), UnknownName::hint_for_cycle(source))]
 pub struct RefusedCycle {
     /// File and line.
     pub(super) place: Option<String>,

@@ -28,6 +28,8 @@ pub enum CycleError {
         robot: String,
         /// The joint's name.
         joint: String,
+        /// The joints that the robot has.
+        known: Vec<String>,
     },
     /// A joint that the chain commands already.
     #[error("cycle {cycle}, {place}: {joint} belongs to the chain, which moves it")]

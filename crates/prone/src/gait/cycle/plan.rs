@@ -429,6 +429,7 @@ impl Planner<'_> {
             place: place.to_owned(),
             robot: self.robot.name.clone(),
             joint: name.to_owned(),
+            known: self.robot.joints.iter().map(|it| it.name.clone()).collect(),
         };
         self.robot.joint(name).ok_or_else(unknown)
     }
