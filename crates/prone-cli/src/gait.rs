@@ -12,7 +12,7 @@ use prone::robot::Robot;
 use prone_files::gait_text::GaitText;
 use prone_files::gaits::Gaits;
 use prone_files::text_file::ReadError;
-use prone_files::{cycle_file, gait_file, shipped, text_file};
+use prone_files::{cycle_file, gait_file, shipped};
 use prone_record::experiment::TextFile;
 use prone_record::single_file;
 use prone_sim::LoadedRobot;
@@ -129,11 +129,7 @@ pub(crate) fn show(args: &GaitShowArgs) -> Result<(), Failure> {
     let loaded = crate::robot::load(args.robot.name())?;
     let gaits = &loaded.files().gaits;
     let name = args.gait.name();
-    let named = gaits.find(name).map_err(Failure::input)?;
-    if named.is_none() && !Path::new(name).exists() {
-        return Err(unknown_to_all(name, gaits));
-    }
-    if named.map_or_else(|| is_cycle_file(name), |gait| gait.is_cycle()) {
+    if is_cycle(gaits, name)? {
         return cycle::show(args, &loaded);
     }
     let (gait, _) = find(gaits, name)?;
@@ -155,13 +151,14 @@ pub(crate) fn show(args: &GaitShowArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Whether a file holds a cycle: the key that only a cycle has, at the beginning of a line.
-fn is_cycle_file(name: &str) -> bool {
-    let text = text_file::read(Path::new(name));
-    text.is_ok_and(|text| {
-        text.lines()
-            .any(|line| line.trim_start().starts_with("[pull"))
-    })
+/// Whether a name or a file is that of a whole cycle, and not of a pull alone.
+pub(crate) fn is_cycle(gaits: &Gaits, name: &str) -> Result<bool, Failure> {
+    if let Some(named) = gaits.find(name).map_err(Failure::input)? {
+        return Ok(named.is_cycle());
+    }
+    let file = in_file(name)?;
+    let file = file.ok_or_else(|| unknown_to_all(name, gaits))?;
+    Ok(file.is_cycle())
 }
 
 /// The files that were read.

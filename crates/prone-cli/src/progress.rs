@@ -5,6 +5,8 @@ use std::path::Path;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use prone_record::gait_search::Broken;
+use prone_record::measure::{Measure, broken_sentence};
 use prone_record::search::Search;
 use prone_study::watch::{self, Found, Watch};
 
@@ -56,7 +58,7 @@ impl Progress {
     }
 
     /// After a generation, or before the first one.
-    fn searched(&self, search: &Search) {
+    fn searched(&self, search: &Search, measure: Measure, broken: &[Broken]) {
         if self.bar.length() != Some(search.allowance()) || self.bar.position() == 0 {
             self.bar.set_style(self.search.clone());
             self.bar.set_length(search.allowance());
@@ -66,10 +68,11 @@ impl Progress {
         self.bar.set_position(search.evaluations());
         if let Some((run, best)) = search.best() {
             let (violation, value) = (best.score.violation(), best.score.value());
-            self.bar.set_message(format!(
-                "best: {value:.4}, violations {violation:.4}, seed {}",
-                run.seed
-            ));
+            let breaks = broken_sentence(violation, broken);
+            let breaks = breaks.map_or_else(String::new, |breaks| format!(", {breaks}"));
+            let value = measure.sentence(value);
+            self.bar
+                .set_message(format!("best: {value}{breaks}, seed {}", run.seed));
         }
     }
 
@@ -128,7 +131,11 @@ impl Watch for Progress {
                 taken_over,
                 journal,
             } => self.measuring(rows, taken_over, journal),
-            watch::Progress::Searching(search) => self.searched(search),
+            watch::Progress::Searching {
+                search,
+                measure,
+                broken,
+            } => self.searched(search, measure, broken),
             watch::Progress::Found(checkpoint, found) => self.found(checkpoint, found),
             watch::Progress::Done(steps) => {
                 self.bar.inc(steps as u64);

@@ -12,7 +12,7 @@ use prone_record::experiment::{
     PullSearchExperiment, RobotText, Runs, SceneText, Share, SteeringChoice, TorqueChoice,
     TorqueMapExperiment, Under,
 };
-use prone_record::frontier::CycleObjective;
+use prone_record::frontier::{CycleObjective, Quantity};
 use prone_record::resumption::Opening;
 use prone_record::search::Solver;
 use prone_record::search_result::SearchResult;
@@ -389,6 +389,7 @@ fn a_search_of_cycles_that_was_sent() {
             runs: 1,
             budget: 16,
         },
+        time_budget_s: None,
     };
     let asked = sent(&Experiment::CycleSearch(Box::new(experiment.clone())));
     let Outcome::Search(done) = run(&asked, &Unwatched).unwrap() else {
@@ -413,7 +414,7 @@ fn a_search_of_cycles_that_was_sent() {
         name: Some("a/b".to_owned()),
     });
     assert!(said.contains("a gait's name is made of"), "{said}");
-    for (ceilings_mm, reason) in [
+    for (at, reason) in [
         (vec![178.0, 178.0], "178 mm is there twice"),
         (vec![150.0], "150 mm is too low for NAO H25 V4"),
         (vec![1.0], "a margin of 1 mm leaves no room"),
@@ -422,8 +423,9 @@ fn a_search_of_cycles_that_was_sent() {
             "a ceiling of NaN mm is outside 1 to 10000 mm",
         ),
     ] {
-        let said = refused(Under::Ceilings {
-            ceilings_mm,
+        let said = refused(Under::Across {
+            held: Quantity::Ceiling,
+            at,
             margin_mm: 1.0,
         });
         assert!(said.contains(reason), "{said}");

@@ -4,6 +4,9 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
+use prone_record::experiment::CycleSearchExperiment;
+use prone_record::frontier::Quantity;
+
 use super::named::{GaitArgs, RobotArg};
 
 #[derive(Debug, clap::Args)]
@@ -50,30 +53,51 @@ Examples:
   prone crawl frontier --seed 1 --out out/frontier
   prone crawl frontier --ceilings-mm 165,200 --runs 1 --budget 800 --seed 7 --out out/short
   prone crawl frontier --against heat --seed 1 --out out/heat-frontier
+  prone crawl frontier --of ceiling,speed --at 165,180,200 --seed 1 --out out/speed
+  prone crawl frontier --of speed,heat --at 30,40,50 --time-budget 600 --seed 1 --out out/speed-heat
 
-Each ceiling is searched with each seed about one of the cycles of --from. What is found is crawled
-in other settings too: friction 0.4 and 1, time scales 0.8 and 1.7, steps of 1 ms (where it has to
-keep 80 % of its advance and the ceiling to hold), and with stiff servos, for information. The folder appears when all is done; until then the searches are kept in OUT.checkpoint.json beside it,
+Each value is searched with each seed about one of the cycles of --from. What is found is crawled
+in other settings too: friction 0.4 and 1, time scales 0.8 and 1.7, steps of 1 ms, and with stiff
+servos, for information. A point is robust where it keeps 80 % of its advance in them, below the
+ceiling; it is ideal where it keeps the rules in the settings of its search alone. The folder appears when all is done; until then the searches are kept in OUT.checkpoint.json beside it,
 and --resume goes on from there to the same bytes.")]
 pub(crate) struct FrontierArgs {
-    /// Ceilings, mm
-    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "165,183,200", value_parser = height, allow_negative_numbers = true)]
+    /// Two quantities: the first is held at several values, the second is searched at each
+    #[arg(
+        long,
+        value_name = "HELD,SEARCHED",
+        value_enum,
+        value_delimiter = ',',
+        num_args = 2,
+        default_value = "ceiling,advance"
+    )]
+    pub(crate) of: Vec<QuantityName>,
+    /// Values at which the first quantity is held: ceilings in mm, least advances in mm per cycle, least
+    /// speeds in mm/s, largest heats in s/m, largest duties [default: ceilings 165,183,200]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = value, allow_negative_numbers = true, conflicts_with = "ceilings_mm")]
+    pub(crate) at: Vec<f64>,
+    /// Ceilings, mm: --at where ceilings are held
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = height, allow_negative_numbers = true)]
     pub(crate) ceilings_mm: Vec<f64>,
-    /// What is searched under each ceiling
-    #[arg(long, value_enum, default_value = "advance")]
-    pub(crate) against: AgainstName,
-    /// Distance that has to stay between robot and ceiling, mm
-    #[arg(long, value_name = "MM", default_value = "1", value_parser = margin, allow_negative_numbers = true)]
-    pub(crate) margin_mm: f64,
-    /// Seed of the first search of each ceiling; the others follow
+    /// What is searched under each ceiling, in place of --of
+    #[arg(long, value_enum, conflicts_with = "of")]
+    pub(crate) against: Option<AgainstName>,
+    /// Distance that has to stay between robot and ceiling, mm [default: 1]
+    #[arg(long, value_name = "MM", value_parser = margin, allow_negative_numbers = true)]
+    pub(crate) margin_mm: Option<f64>,
+    /// Seed of the first search of each value; the others follow
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub(crate) seed: u64,
-    /// Searches of each ceiling
+    /// Searches of each value
     #[arg(long, value_name = "R", default_value = "3", value_parser = clap::value_parser!(u64).range(1..=100))]
     pub(crate) runs: u64,
     /// Most evaluations of each search
-    #[arg(long, value_name = "N", default_value = "1600", value_parser = clap::value_parser!(u64).range(16..=10_000_000))]
+    #[arg(long, value_name = "N", default_value_t = CycleSearchExperiment::BUDGET, value_parser = clap::value_parser!(u64).range(16..=10_000_000))]
     pub(crate) budget: u64,
+    /// Most seconds of searching in all, shared among values and runs; what is found by then is kept, and
+    /// --resume goes on from there
+    #[arg(long, value_name = "S", value_parser = super::optimize::seconds)]
+    pub(crate) time_budget: Option<f64>,
     /// Cycles about which is searched, names or files: the one that fits and comes farthest, else
     /// the lowest [default: those of the robot's [defaults], of the NAO low-175 and low-165]
     #[arg(long, value_name = "GAIT")]
@@ -83,7 +107,8 @@ pub(crate) struct FrontierArgs {
     /// by half of that at most
     #[arg(long)]
     pub(crate) steerable: bool,
-    /// Go on from the checkpoint of an interrupted search, if there is one
+    /// Go on from the checkpoint of an interrupted search, or from a finished one in --out, if there is
+    /// one; --budget may be larger than it was
     #[arg(long)]
     pub(crate) resume: bool,
     /// Result folder; made, or replaced if it holds an earlier result
@@ -99,6 +124,34 @@ pub(crate) struct FrontierArgs {
     pub(crate) json: bool,
 }
 
+/// A quantity that a frontier is drawn of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum QuantityName {
+    /// Height of the ceiling, mm; searched, the robot's highest point
+    Ceiling,
+    /// Advance per cycle, mm
+    Advance,
+    /// Speed, mm/s
+    Speed,
+    /// Motor heat per metre, s/m
+    Heat,
+    /// RMS torque of the worst motor over its nominal torque
+    Duty,
+}
+
+impl QuantityName {
+    /// What it is in records.
+    pub(crate) const fn quantity(self) -> Quantity {
+        match self {
+            Self::Ceiling => Quantity::Ceiling,
+            Self::Advance => Quantity::Advance,
+            Self::Speed => Quantity::Speed,
+            Self::Heat => Quantity::Heat,
+            Self::Duty => Quantity::Duty,
+        }
+    }
+}
+
 /// What a frontier is drawn against.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum AgainstName {
@@ -111,6 +164,11 @@ pub(crate) enum AgainstName {
 /// A height as typed, mm: above nothing, below any room.
 pub(crate) fn height(text: &str) -> Result<f64, String> {
     within(text, 1.0, 10_000.0)
+}
+
+/// A value of any quantity; its bounds are known with the quantity.
+fn value(text: &str) -> Result<f64, String> {
+    text.trim().parse().map_err(|_| "not a number".to_owned())
 }
 
 fn margin(text: &str) -> Result<f64, String> {

@@ -1,8 +1,8 @@
 //! What a whole cycle costs, by simulation in the locomotion regime.
 //!
 //! A cycle is crawled in one or more settings (friction, servo, time scale). In the main ones the
-//! value counts: heat per metre, merged over servos ([`Merge`]), advance per cycle, speed, or what a
-//! shoulder's servo demands. In all but those of [`Role::Beside`] nothing may be higher than the
+//! value counts: heat per metre, merged over servos ([`Merge`]), advance per cycle, speed, duty of the
+//! worst motor, height, or what a shoulder's servo demands. In all but those of [`Role::Beside`] nothing may be higher than the
 //! ceiling and the advance has to be enough; [`CycleRules`] may ask for no more of a shoulder's servo
 //! (with the robot's own gains), no more weight on trunk, head and legs in the pull (where values count),
 //! no more heat. Limbs are kept apart in the plan, not in what lags behind it. What is broken adds
@@ -135,7 +135,9 @@ impl CycleCosts {
                 return Err(CycleCostError::Merge { others, settings });
             }
         }
-        let warm = aim.objective == CycleObjective::Heat || aim.rules.heat < f64::INFINITY;
+        let warm = matches!(aim.objective, CycleObjective::Heat | CycleObjective::Duty)
+            || aim.rules.heat < f64::INFINITY
+            || aim.rules.most_duty < f64::INFINITY;
         if warm {
             world.robot().check_motors()?;
         }
@@ -292,6 +294,8 @@ fn value(objective: CycleObjective, trials: &[&Trial], merge: &Merge) -> f64 {
         CycleObjective::Advance => first(|trial| -trial.advance),
         CycleObjective::Speed => first(|trial| -trial.advance / trial.seconds),
         CycleObjective::Peak => first(|trial| trial.demanded_shoulder),
+        CycleObjective::Duty => first(|trial| trial.duty.0),
+        CycleObjective::Height => first(|trial| trial.top.0),
     }
 }
 

@@ -3,8 +3,8 @@
 //! With a value v and its limit, a rule is broken by
 //!
 //! ```text
-//! max(v / largest − 1, 0)    height, duration, demanded torque, heat, drift of the heading    (1)
-//! max(1 − v / least, 0)      advance, turn                                                    (2)
+//! max(v / largest − 1, 0)    height, duration, demanded torque, heat, duty, drift of heading  (1)
+//! max(1 − v / least, 0)      advance, speed, turn                                             (2)
 //! max(v − largest, 0)        share of the weight on trunk, head and legs, and on the head     (3)
 //! ```
 //!
@@ -48,6 +48,10 @@ pub struct CycleRules {
     pub head: f64,
     /// Largest heat, merged over servos.
     pub heat: f64,
+    /// Least speed where values count, m/s.
+    pub least_speed: f64,
+    /// Largest duty, RMS over nominal torque, with the robot's own servos where values count.
+    pub most_duty: f64,
 }
 
 impl CycleRules {
@@ -60,6 +64,8 @@ impl CycleRules {
         demanded_shoulder: f64::INFINITY,
         head: HEAD_CARRIES,
         heat: f64::INFINITY,
+        least_speed: 0.0,
+        most_duty: f64::INFINITY,
     };
 
     /// What a cycle of a duration, s, breaks.
@@ -102,7 +108,15 @@ impl CycleRules {
             let excess = number(trial.body_share - self.body_share).max(0.0);
             broken.push(("body-share", excess));
         }
-        if servo == Servo::DcMotor(MotorServo::ROBOT) {
+        if self.least_speed > 0.0 && role == Role::Value {
+            let speed = trial.advance / trial.seconds;
+            broken.push(("speed", below(speed, self.least_speed)));
+        }
+        let own = servo == Servo::DcMotor(MotorServo::ROBOT);
+        if own && self.most_duty < f64::INFINITY && role == Role::Value {
+            broken.push(("duty", above(trial.duty.0, self.most_duty)));
+        }
+        if own {
             let excess = above(trial.demanded_shoulder, self.demanded_shoulder);
             broken.push(("demanded-shoulder", excess));
         }

@@ -14,6 +14,7 @@ fn warm(heat_per_metre: f64) -> Trial {
         seconds: 2.0,
         top: (0.2, BodyPart::Head),
         heat_per_metre,
+        duty: (0.5, String::new()),
         peak_over_limit: (1.0, String::new()),
         demanded_shoulder: heat_per_metre,
         head: 0.0,
