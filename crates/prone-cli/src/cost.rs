@@ -74,7 +74,7 @@ pub(crate) fn print_cycle(cost: &CycleCost, out: &mut dyn Write) -> std::io::Res
     )?;
     print_broken(&cost.broken, out)?;
     if let Some(reason) = &cost.refused {
-        writeln!(out, "  it cannot be crawled: {reason}")?;
+        writeln!(out, "  not crawled in every setting: {reason}")?;
     }
     if cost.settings.is_empty() {
         return Ok(());

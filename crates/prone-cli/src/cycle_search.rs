@@ -29,7 +29,7 @@ const MARGIN_MM: f64 = 1.0;
 /// `prone crawl frontier`.
 pub(crate) fn frontier(args: &FrontierArgs) -> Result<Plan, Failure> {
     let files = crate::robot::files(args.robot.name())?;
-    let (held, searched) = quantities(args)?;
+    let (held, searched) = quantities(args);
     let experiment = CycleSearchExperiment {
         objective: searched.objective(),
         steerable: args.steerable,
@@ -56,17 +56,11 @@ pub(crate) fn frontier(args: &FrontierArgs) -> Result<Plan, Failure> {
 }
 
 /// What is held, and what is searched.
-fn quantities(args: &FrontierArgs) -> Result<(Quantity, Quantity), Failure> {
+const fn quantities(args: &FrontierArgs) -> (Quantity, Quantity) {
     match args.against {
-        Some(AgainstName::Advance) => return Ok((Quantity::Ceiling, Quantity::Advance)),
-        Some(AgainstName::Heat) => return Ok((Quantity::Ceiling, Quantity::Heat)),
-        None => {}
-    }
-    match args.of[..] {
-        [held, searched] => Ok((held.quantity(), searched.quantity())),
-        _ => Err(Failure::Input(anyhow!(
-            "--of takes two quantities, such as ceiling,speed"
-        ))),
+        Some(AgainstName::Advance) => (Quantity::Ceiling, Quantity::Advance),
+        Some(AgainstName::Heat) => (Quantity::Ceiling, Quantity::Heat),
+        None => args.of,
     }
 }
 

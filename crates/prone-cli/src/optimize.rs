@@ -154,3 +154,43 @@ pub(crate) fn print(outcome: &Outcome, out: &mut dyn Write) -> std::io::Result<(
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use clap::{CommandFactory as _, Parser as _};
+
+    use super::*;
+    use crate::args::{Args, Command};
+
+    /// The experiment of a search whose budget was not typed.
+    fn planned(source: &str) -> Experiment {
+        let typed = "prone optimize --objective heat --seed 1 --out never --source";
+        let typed = typed.split(' ').chain([source]);
+        let Command::Optimize(args) = Args::try_parse_from(typed).unwrap().command else {
+            panic!("it is a search");
+        };
+        match plan(&args) {
+            Ok(Plan {
+                work: Work::Study(experiment),
+                ..
+            }) => experiment,
+            _ => panic!("it can be planned"),
+        }
+    }
+
+    #[test]
+    fn the_help_of_the_budget_tells_what_is_used() {
+        let budgets = ["cycle", "dynamics", "statics"].map(|source| match planned(source) {
+            Experiment::CycleSearch(it) => it.runs.budget,
+            Experiment::PullSearch(it) => it.runs.budget,
+            _ => panic!("it is a search"),
+        });
+        let [cycle, dynamics, other] = budgets;
+        let command = Args::command();
+        let optimize = command.find_subcommand("optimize").unwrap();
+        let budget = optimize.get_arguments().find(|it| it.get_id() == "budget");
+        let help = budget.unwrap().get_help().unwrap().to_string();
+        let said = format!("[default: {cycle} with cycle, {dynamics} with dynamics, else {other}]");
+        assert!(help.ends_with(&said), "{help}");
+    }
+}

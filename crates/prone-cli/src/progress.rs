@@ -50,10 +50,10 @@ impl Progress {
     }
 
     fn begin(&self, steps: usize, message: &'static str) {
+        self.bar.set_message(message);
         self.bar.set_style(self.steps.clone());
         self.bar.set_length(steps as u64);
         self.bar.set_position(0);
-        self.bar.set_message(message);
         self.bar.tick();
     }
 
@@ -68,11 +68,13 @@ impl Progress {
         self.bar.set_position(search.evaluations());
         if let Some((run, best)) = search.best() {
             let (violation, value) = (best.score.violation(), best.score.value());
-            let breaks = broken_sentence(violation, broken);
-            let breaks = breaks.map_or_else(String::new, |breaks| format!(", {breaks}"));
-            let value = measure.sentence(value);
-            self.bar
-                .set_message(format!("best: {value}{breaks}, seed {}", run.seed));
+            // A value that is not known, as what is broken forbids to simulate, counts as 0.
+            let value = Some(value).filter(|value| violation <= 0.0 || *value != 0.0);
+            let value = value.map(|value| measure.sentence(value));
+            let said = [value, broken_sentence(violation, broken)];
+            let said: Vec<String> = said.into_iter().flatten().collect();
+            let (said, seed) = (said.join(", "), run.seed);
+            self.bar.set_message(format!("best: {said}, seed {seed}"));
         }
     }
 

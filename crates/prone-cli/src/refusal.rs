@@ -4,7 +4,7 @@ use anyhow::anyhow;
 
 use prone::scene::{Quantity, SceneError};
 use prone_record::experiment::{Experiment, Under};
-use prone_record::frontier::Quantity;
+use prone_record::frontier::Quantity as Held;
 use prone_study::crawl::CrawlSetupError;
 use prone_study::run::RunError;
 use prone_study::search::cycle_jobs::CycleSearchError;
@@ -78,7 +78,7 @@ pub(crate) fn of_reproduction(error: ReproduceError) -> Failure {
 fn of_cycle_search(error: CycleSearchError, experiment: &Experiment) -> Failure {
     let message = match &error {
         CycleSearchError::Twice {
-            held: Quantity::Ceiling,
+            held: Held::Ceiling,
             value,
         } => format!("--ceilings-mm has {value} twice"),
         CycleSearchError::Twice { value, .. } => format!("--at has {value} twice"),

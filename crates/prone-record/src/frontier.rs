@@ -303,3 +303,90 @@ pub fn history_csv<'s>(
         ],
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn found(violation: f64, rule: &'static str, holds: bool) -> Found {
+        let broken = Broken {
+            rule: rule.into(),
+            count: 1,
+            sum: violation,
+        };
+        Found {
+            at: Some(40.0),
+            seed: 1,
+            evaluations: 16,
+            gait: "speed-40-seed-1".to_owned(),
+            value: Some(35.0),
+            reached: Some(35.0),
+            violation,
+            broken: Some(broken)
+                .filter(|_| violation > 0.0)
+                .into_iter()
+                .collect(),
+            refused: None,
+            unsteered: None,
+            confirmed: Confirmed {
+                holds,
+                settings: Vec::new(),
+            },
+        }
+    }
+
+    #[test]
+    fn a_point_that_is_not_where_it_is_held_is_not_robust() {
+        let standing = |violation, rule, holds, held| found(violation, rule, holds).standing(held);
+        let speed = Quantity::Speed;
+        assert_eq!(standing(0.0, "speed", true, speed), Standing::Robust);
+        assert_eq!(standing(0.0, "speed", false, speed), Standing::Ideal);
+        assert_eq!(standing(0.1, "speed", true, speed), Standing::Broken);
+        assert_eq!(standing(0.1, "head", true, speed), Standing::Robust);
+        // A confirmation judges the ceiling itself; a search has a margin below it.
+        let ceiling = Quantity::Ceiling;
+        assert_eq!(standing(0.1, "ceiling", true, ceiling), Standing::Robust);
+        assert_eq!(standing(0.1, "ceiling", false, ceiling), Standing::Broken);
+    }
+
+    /// What an earlier release wrote, which held nothing but ceilings.
+    #[test]
+    fn a_frontier_of_ceilings_is_read() {
+        let written = serde_json::json!({
+            "objective": "advance", "margin_mm": 1.0, "compared": [],
+            "found": [{
+                "ceiling_mm": 165.0, "seed": 1, "evaluations": 16, "gait": "under-165-seed-1",
+                "value": -0.1, "violation": 0.0, "confirmed": { "holds": true, "settings": [] },
+            }],
+        });
+        let read: Frontier = serde_json::from_value(written).unwrap();
+        assert_eq!((read.held, read.complete), (Quantity::Ceiling, true));
+        assert_eq!(read.best_at(Some(165.0)).unwrap().at, Some(165.0));
+        assert!(read.best_at(None).is_none() && read.best_at(Some(1.0)).is_none());
+        assert_eq!(read.measure().sentence(-0.1), "100.0 mm per cycle");
+    }
+
+    #[test]
+    fn tables_name_what_is_held() {
+        let frontier = Frontier {
+            objective: CycleObjective::Heat,
+            unit: "s/m".to_owned(),
+            heats: Heats::PerMetre,
+            held: Quantity::Speed,
+            margin_mm: 1.0,
+            complete: true,
+            found: vec![Found {
+                confirmed: Confirmed {
+                    holds: true,
+                    settings: vec![ConfirmedSetting::default()],
+                },
+                ..found(0.0, "", true)
+            }],
+            compared: Vec::new(),
+        };
+        let table = String::from_utf8(csv(&frontier).unwrap()).unwrap();
+        let head = "least_speed_mm_s,seed,standing,setting,";
+        assert!(table.starts_with(head), "{table}");
+        assert!(table.contains("\n40.000,1,robust,as it is,"), "{table}");
+    }
+}

@@ -359,6 +359,22 @@ mod tests {
     }
 
     #[test]
+    fn runs_that_are_stopped_are_about_as_far_as_each_other() {
+        let mut search = Search::new(Solver::DifferentialEvolution, 5, 3, 2000);
+        let mut steps = 0;
+        search.proceed(&Threads(Bowl::new()), |_| {
+            steps += 1;
+            if steps == 7 {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        });
+        let generations = search.runs().iter().map(|run| run.history.0.len());
+        assert_eq!(generations.collect::<Vec<_>>(), [3, 2, 2]);
+    }
+
+    #[test]
     fn the_best_of_all_runs_is_feasible_and_near_the_minimum() {
         let search = finished(Solver::DifferentialEvolution);
         let (run, best) = search.best().unwrap();

@@ -6,11 +6,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use prone_files::robot_folder::RobotFiles;
 use prone_files::shipped;
 use prone_record::experiment::{
-    ClearanceChoice, CostExperiment, CrawlExperiment, CycleRulesChoice, CycleSearchExperiment,
-    Detail, Ending, Ends, Experiment, GaitForm, GaitText, LimitsChoice, MapSource, NamedGait,
-    PassageCycle, PassageExperiment, PullCostChoice, PullExperiment, PullObjective, PullRules,
-    PullSearchExperiment, RobotText, Runs, SceneText, Share, SteeringChoice, TorqueChoice,
-    TorqueMapExperiment, Under,
+    ClearanceChoice, CostExperiment, CrawlExperiment, CycleCostExperiment, CycleRulesChoice,
+    CycleSearchExperiment, Detail, Ending, Ends, Experiment, GaitForm, GaitText, LimitsChoice,
+    MapSource, NamedGait, PassageCycle, PassageExperiment, PullCostChoice, PullExperiment,
+    PullObjective, PullRules, PullSearchExperiment, RobotText, Runs, SceneText, Share,
+    SteeringChoice, TorqueChoice, TorqueMapExperiment, Under,
 };
 use prone_record::frontier::{CycleObjective, Quantity};
 use prone_record::resumption::Opening;
@@ -442,6 +442,58 @@ fn a_search_of_cycles_that_was_sent() {
         said.contains("most_heat goes with the objectives heat"),
         "{said}"
     );
+}
+
+/// A cycle costs what a search says of it, and keeps no rule that it is held to and breaks.
+#[test]
+fn the_cost_of_a_cycle_that_was_sent() {
+    let cost = |rules: CycleRulesChoice, objective| {
+        let experiment = Experiment::CycleCost(Box::new(CycleCostExperiment {
+            robot: robot(),
+            gait: gait("low-175"),
+            from: None,
+            objective,
+            steerable: false,
+            rules,
+            worst_over: None,
+        }));
+        let Outcome::CycleCost(cost) = run(&sent(&experiment), &Unwatched).unwrap() else {
+            panic!("a cost was asked for");
+        };
+        *cost
+    };
+    let free = CycleRulesChoice {
+        most_head_n: Some(1000.0),
+        least_advance_mm: Some(10.0),
+        ..CycleRulesChoice::default()
+    };
+    let heat = cost(free, CycleObjective::Heat);
+    assert_eq!((heat.unit, heat.violations), ("s/m", 0.0));
+    let [own, stiff] = &heat.settings[..] else {
+        panic!("{heat:?}");
+    };
+    let heats = [own, stiff].map(|it| it.row.heat_per_metre_s.unwrap());
+    let mean = (heats[0] * heats[1]).sqrt();
+    assert!((heat.value.unwrap() - mean).abs() < 1e-9 * mean, "{heat:?}");
+    // A tenth more than it has is asked of it.
+    let speed = own.row.mm_per_s.unwrap();
+    let faster = CycleRulesChoice {
+        least_speed_mm_s: Some(speed / 0.9),
+        ..free
+    };
+    let broken = cost(faster, CycleObjective::Heat);
+    let rule = &broken.settings[0].broken[0];
+    assert_eq!(rule.rule, "speed");
+    assert!((rule.sum - 0.1).abs() < 1e-9, "{rule:?}");
+    let duty = own.row.duty.unwrap();
+    let gentler = CycleRulesChoice {
+        most_duty: Some(duty / 1.1),
+        ..free
+    };
+    let broken = cost(gentler, CycleObjective::Heat);
+    let rule = &broken.settings[0].broken[0];
+    assert_eq!(rule.rule, "duty");
+    assert!((rule.sum - 0.1).abs() < 1e-9, "{rule:?}");
 }
 
 #[test]

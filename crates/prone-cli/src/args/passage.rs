@@ -63,15 +63,11 @@ ceiling; it is ideal where it keeps the rules in the settings of its search alon
 and --resume goes on from there to the same bytes.")]
 pub(crate) struct FrontierArgs {
     /// Two quantities: the first is held at several values, the second is searched at each
-    #[arg(
-        long,
-        value_name = "HELD,SEARCHED",
-        value_enum,
-        value_delimiter = ',',
-        num_args = 2,
-        default_value = "ceiling,advance"
-    )]
-    pub(crate) of: Vec<QuantityName>,
+    ///
+    /// They are ceiling (mm; searched, the robot's highest point), advance (mm per cycle), speed (mm/s), heat
+    /// (s/m) and duty (RMS torque of the worst motor over its nominal torque)
+    #[arg(long, value_name = "HELD,SEARCHED", default_value = "ceiling,advance", value_parser = pair)]
+    pub(crate) of: (Quantity, Quantity),
     /// Values at which the first quantity is held: ceilings in mm, least advances in mm per cycle, least
     /// speeds in mm/s, largest heats in s/m, largest duties [default: ceilings 165,183,200]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = value, allow_negative_numbers = true, conflicts_with = "ceilings_mm")]
@@ -124,34 +120,6 @@ pub(crate) struct FrontierArgs {
     pub(crate) json: bool,
 }
 
-/// A quantity that a frontier is drawn of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum QuantityName {
-    /// Height of the ceiling, mm; searched, the robot's highest point
-    Ceiling,
-    /// Advance per cycle, mm
-    Advance,
-    /// Speed, mm/s
-    Speed,
-    /// Motor heat per metre, s/m
-    Heat,
-    /// RMS torque of the worst motor over its nominal torque
-    Duty,
-}
-
-impl QuantityName {
-    /// What it is in records.
-    pub(crate) const fn quantity(self) -> Quantity {
-        match self {
-            Self::Ceiling => Quantity::Ceiling,
-            Self::Advance => Quantity::Advance,
-            Self::Speed => Quantity::Speed,
-            Self::Heat => Quantity::Heat,
-            Self::Duty => Quantity::Duty,
-        }
-    }
-}
-
 /// What a frontier is drawn against.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum AgainstName {
@@ -164,6 +132,24 @@ pub(crate) enum AgainstName {
 /// A height as typed, mm: above nothing, below any room.
 pub(crate) fn height(text: &str) -> Result<f64, String> {
     within(text, 1.0, 10_000.0)
+}
+
+/// Two different quantities.
+fn pair(text: &str) -> Result<(Quantity, Quantity), String> {
+    let names = Quantity::ALL.map(Quantity::name).join(", ");
+    let quantity = |name: &str| {
+        let mut all = Quantity::ALL.into_iter();
+        let found = all.find(|it| it.name() == name.trim());
+        found.ok_or_else(|| format!("there is no quantity {name:?}; there are {names}"))
+    };
+    let (held, searched) = text
+        .split_once(',')
+        .ok_or_else(|| format!("it takes two of {names}, such as ceiling,speed"))?;
+    let (held, searched) = (quantity(held)?, quantity(searched)?);
+    if held == searched {
+        return Err("a frontier is between two different quantities".to_owned());
+    }
+    Ok((held, searched))
 }
 
 /// A value of any quantity; its bounds are known with the quantity.

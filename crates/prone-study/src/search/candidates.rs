@@ -192,6 +192,44 @@ impl<C: Candidates> Problem for Searched<'_, C> {
 mod tests {
     use super::*;
 
+    /// Points of one number, whose amount above 1 is broken.
+    struct Line([Interval; 1]);
+
+    impl Candidates for Line {
+        type Gait = f64;
+
+        fn bounds(&self) -> &[Interval] {
+            &self.0
+        }
+
+        fn gait(&self, point: &[f64]) -> Result<f64, PointError> {
+            Ok(point[0])
+        }
+
+        fn cost(&self, gait: &f64, _: Depth) -> Cost {
+            let mut cost = Cost {
+                value: -gait,
+                ..Cost::default()
+            };
+            let rule = if *gait > 2.0 { "far" } else { "near" };
+            cost.add(rule, (gait - 1.0).max(0.0));
+            cost
+        }
+    }
+
+    #[test]
+    fn the_rules_that_the_best_breaks_are_remembered() {
+        let line = Line([Interval::new(0.0, 4.0).unwrap()]);
+        let searched = Searched::new(&line);
+        let scores = [3.0, 1.5, 2.5].map(|x| searched.evaluate(&[x]).unwrap());
+        let rules = |score: &Score| {
+            let broken = searched.broken_by(score).into_iter();
+            broken.map(|it| it.rule.into_owned()).collect::<Vec<_>>()
+        };
+        assert_eq!(rules(&scores[1]), ["near"]);
+        assert!(rules(&scores[0]).is_empty() && rules(&scores[2]).is_empty());
+    }
+
     #[test]
     fn limit_an_unknown_value_never_wins() {
         let score = |violation, value| {
