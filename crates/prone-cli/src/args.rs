@@ -1,6 +1,7 @@
 //! What may be typed.
 
 mod crawl;
+pub(crate) mod cycle_rules;
 mod export;
 pub(crate) mod list;
 mod named;

@@ -10,38 +10,42 @@ use prone_record::experiment::{
     CycleRulesChoice, CycleSearchExperiment, Experiment, GaitText, LeastDuty, NamedGait, RobotText,
     Runs, Under,
 };
-use prone_record::frontier::{CycleObjective, Frontier, SettingKind};
+use prone_record::frontier::{CycleObjective, Frontier, Quantity, SettingKind};
+use prone_record::measure::broken_sentence;
 
 use crate::Failure;
-use crate::args::optimize::{DutyName, OptimizeArgs, SolverName};
+use crate::args::cycle_rules::{CycleRulesArgs, VerdictName};
+use crate::args::optimize::{OptimizeArgs, SolverName};
 use crate::args::passage::{AgainstName, FrontierArgs};
-use crate::args::pull_terms::ObjectiveName;
+use crate::args::pull_terms::{ObjectiveName, PullTermsArgs};
 use crate::gait::find_cycle;
 use crate::plan::{self, Plan, Work};
 
-/// Most evaluations of a run of `prone optimize` where none are asked for.
-const BUDGET: u64 = 1600;
+/// Ceilings, mm, where none are asked for.
+const CEILINGS_MM: [f64; 3] = [165.0, 183.0, 200.0];
+/// Distance kept from them, mm, where none is asked for.
+const MARGIN_MM: f64 = 1.0;
 
 /// `prone crawl frontier`.
 pub(crate) fn frontier(args: &FrontierArgs) -> Result<Plan, Failure> {
     let files = crate::robot::files(args.robot.name())?;
+    let (held, searched) = quantities(args);
     let experiment = CycleSearchExperiment {
-        objective: match args.against {
-            AgainstName::Advance => CycleObjective::Advance,
-            AgainstName::Heat => CycleObjective::Heat,
-        },
+        objective: searched.objective(),
         steerable: args.steerable,
         ideal: args.ideal,
         reach: args.reach,
-        under: Under::Ceilings {
-            ceilings_mm: args.ceilings_mm.clone(),
-            margin_mm: args.margin_mm,
+        under: Under::Across {
+            held,
+            at: values(args, held)?,
+            margin_mm: args.margin_mm.unwrap_or(MARGIN_MM),
         },
         runs: Runs {
             seed: args.seed,
             runs: args.runs,
             budget: args.budget,
         },
+        time_budget_s: args.time_budget,
         ..asked(&files, &args.from)?
     };
     Ok(Plan {
@@ -53,52 +57,116 @@ pub(crate) fn frontier(args: &FrontierArgs) -> Result<Plan, Failure> {
     })
 }
 
+/// What is held, and what is searched.
+const fn quantities(args: &FrontierArgs) -> (Quantity, Quantity) {
+    match args.against {
+        Some(AgainstName::Advance) => (Quantity::Ceiling, Quantity::Advance),
+        Some(AgainstName::Heat) => (Quantity::Ceiling, Quantity::Heat),
+        None => args.of,
+    }
+}
+
+/// Where it is held.
+fn values(args: &FrontierArgs, held: Quantity) -> Result<Vec<f64>, Failure> {
+    if held == Quantity::Ceiling {
+        return Ok(match (&*args.ceilings_mm, &*args.at) {
+            ([], []) => CEILINGS_MM.to_vec(),
+            ([], at) => at.to_vec(),
+            (ceilings, _) => ceilings.to_vec(),
+        });
+    }
+    let name = held.name();
+    Failure::if_given(
+        &[
+            ("--ceilings-mm", !args.ceilings_mm.is_empty()),
+            ("--margin-mm", args.margin_mm.is_some()),
+        ],
+        &format!("goes with --of ceiling,… only: here the {name} is held"),
+    )?;
+    if args.at.is_empty() {
+        return Err(Failure::Input(anyhow!(
+            "--of {name},… needs --at, a list of values in {}",
+            held.unit()
+        )));
+    }
+    let (least, most) = held.bounds();
+    let outside = |value: &&f64| !(least..=most).contains(*value);
+    match args.at.iter().find(outside) {
+        Some(value) => Err(Failure::Input(anyhow!(
+            "--at {value} is outside {least} to {most} {}",
+            held.unit()
+        ))),
+        None => Ok(args.at.clone()),
+    }
+}
+
 /// `prone optimize --source cycle`.
 pub(crate) fn experiment(args: &OptimizeArgs) -> Result<CycleSearchExperiment, Failure> {
-    refuse_options_of_pulls(args)?;
-    let objective = match args.terms.objective {
-        ObjectiveName::Heat => CycleObjective::Heat,
-        ObjectiveName::HeatRate => CycleObjective::HeatRate,
-        ObjectiveName::Advance => CycleObjective::Advance,
-        ObjectiveName::Speed => CycleObjective::Speed,
-        ObjectiveName::Peak => CycleObjective::Peak,
-        ObjectiveName::Published | ObjectiveName::Torque => {
-            return Err(Failure::Input(anyhow!(
-                "--source cycle searches --objective heat, heat-rate, peak, advance or speed"
-            )));
-        }
-    };
+    refuse_options_of_pulls(&args.terms)?;
+    refuse_options_of_searches_of_pulls(args)?;
     let files = crate::robot::files(args.terms.robot.name())?;
-    let worst_over = args.worst_over.as_ref();
     Ok(CycleSearchExperiment {
-        objective,
-        steerable: args.steerable,
-        ideal: args.ideal,
-        reach: args.reach.unwrap_or(1.0),
+        objective: objective(&args.terms)?,
+        steerable: args.cycle.steerable,
+        ideal: args.cycle.ideal,
+        reach: args.cycle.reach.unwrap_or(1.0),
         under: Under::One {
-            rules: CycleRulesChoice {
-                ceiling_mm: args.ceiling_mm,
-                least_advance_mm: args.least_advance_mm,
-                demanded_shoulder_nm: args.demanded_shoulder_nm,
-                body_share_percent: args.body_share_percent,
-                most_heat: args.most_heat,
-                most_head_n: Some(args.most_head_n.unwrap_or(HEAD_CARRIES)),
-                most_drift_mm: args.most_drift_mm,
-                duty: args.duty.map(|duty| match duty {
-                    DutyName::Continuous => LeastDuty::Continuous,
-                    DutyName::Limited => LeastDuty::Limited,
-                }),
-            },
-            worst_over: worst_over.map(|name| named(&files, name)).transpose()?,
+            rules: rules(&args.cycle),
+            worst_over: worst_over(&args.cycle, &files)?,
             name: args.name.clone(),
         },
         runs: Runs {
             seed: args.seed,
             runs: args.runs,
-            budget: args.budget.unwrap_or(BUDGET),
+            budget: args.budget.unwrap_or(CycleSearchExperiment::BUDGET),
         },
+        time_budget_s: args.time_budget,
         ..asked(&files, args.terms.from.as_slice())?
     })
+}
+
+/// What is minimised of cycles.
+pub(crate) fn objective(terms: &PullTermsArgs) -> Result<CycleObjective, Failure> {
+    match terms.objective {
+        ObjectiveName::Heat => Ok(CycleObjective::Heat),
+        ObjectiveName::HeatRate => Ok(CycleObjective::HeatRate),
+        ObjectiveName::Advance => Ok(CycleObjective::Advance),
+        ObjectiveName::Speed => Ok(CycleObjective::Speed),
+        ObjectiveName::Peak => Ok(CycleObjective::Peak),
+        ObjectiveName::Duty => Ok(CycleObjective::Duty),
+        ObjectiveName::Height => Ok(CycleObjective::Height),
+        ObjectiveName::Published | ObjectiveName::Torque => Err(Failure::Input(anyhow!(
+            "a cycle has --objective heat, peak, advance, speed, duty or height"
+        ))),
+    }
+}
+
+/// The rules that were typed.
+pub(crate) fn rules(args: &CycleRulesArgs) -> CycleRulesChoice {
+    CycleRulesChoice {
+        ceiling_mm: args.ceiling_mm,
+        least_advance_mm: args.least_advance_mm,
+        demanded_shoulder_nm: args.demanded_shoulder_nm,
+        body_share_percent: args.body_share_percent,
+        most_heat: args.most_heat,
+        most_head_n: Some(args.most_head_n.unwrap_or(HEAD_CARRIES)),
+        least_speed_mm_s: args.least_speed_mm_s,
+        most_duty: args.most_duty,
+        most_drift_mm: args.most_drift_mm,
+        verdict: args.verdict.map(|verdict| match verdict {
+            VerdictName::Continuous => LeastVerdict::Continuous,
+            VerdictName::Limited => LeastVerdict::Limited,
+        }),
+    }
+}
+
+/// The cycle over whose heats others are.
+pub(crate) fn worst_over(
+    args: &CycleRulesArgs,
+    files: &RobotFiles,
+) -> Result<Option<NamedGait>, Failure> {
+    let name = args.worst_over.as_ref();
+    name.map(|name| named(files, name)).transpose()
 }
 
 /// A search about cycles, those of the robot's `[defaults]` where none are named.
@@ -117,8 +185,9 @@ fn asked(files: &RobotFiles, from: &[String]) -> Result<CycleSearchExperiment, F
         steerable: false,
         ideal: false,
         reach: 1.0,
-        under: Under::Ceilings {
-            ceilings_mm: Vec::new(),
+        under: Under::Across {
+            held: Quantity::Ceiling,
+            at: Vec::new(),
             margin_mm: 0.0,
         },
         from: from.collect::<Result<_, _>>()?,
@@ -126,8 +195,9 @@ fn asked(files: &RobotFiles, from: &[String]) -> Result<CycleSearchExperiment, F
         runs: Runs {
             seed: 0,
             runs: 1,
-            budget: BUDGET,
+            budget: CycleSearchExperiment::BUDGET,
         },
+        time_budget_s: None,
     })
 }
 
@@ -138,14 +208,14 @@ fn named(files: &RobotFiles, name: &str) -> Result<NamedGait, Failure> {
     })
 }
 
-fn text(files: &RobotFiles, name: &str) -> Result<GaitText, Failure> {
+/// The text of a cycle.
+pub(crate) fn text(files: &RobotFiles, name: &str) -> Result<GaitText, Failure> {
     let source = find_cycle(&files.gaits, name)?;
     Ok(GaitText::new(&source.file, &source.text))
 }
 
 /// Options that say how pulls are costed are refused: the cost of a cycle has no use for them.
-fn refuse_options_of_pulls(args: &OptimizeArgs) -> Result<(), Failure> {
-    let terms = &args.terms;
+pub(crate) fn refuse_options_of_pulls(terms: &PullTermsArgs) -> Result<(), Failure> {
     let given = [
         ("--weights", terms.weights.is_some()),
         ("--per", terms.per.is_some()),
@@ -156,43 +226,76 @@ fn refuse_options_of_pulls(args: &OptimizeArgs) -> Result<(), Failure> {
         ("--body-share-of", terms.body_share_of.is_some()),
         ("--hip-threshold-mm", terms.hip_threshold_mm.is_some()),
         ("--limit-tolerance-rad", terms.limit_tolerance_rad.is_some()),
-        ("--time-budget", args.time_budget.is_some()),
-        (
-            "--solver",
-            !matches!(args.solver, None | Some(SolverName::CmaEs)),
-        ),
+    ];
+    Failure::if_given(
+        &given,
+        "says how pulls are costed, and does not go with whole cycles",
+    )
+}
+
+/// The same of options that say how pulls are searched.
+fn refuse_options_of_searches_of_pulls(args: &OptimizeArgs) -> Result<(), Failure> {
+    let given = [
         ("--gait-form", args.gait_form.is_some()),
         ("--ends", args.ends.is_some()),
         ("--confirm-durations", args.confirm_durations.is_some()),
     ];
-    let reason = "does not go with --source cycle, which searches whole cycles by CMA-ES";
-    Failure::if_given(&given, reason)
+    let reason = "says how pulls are searched, and does not go with --source cycle";
+    Failure::if_given(&given, reason)?;
+    let other = !matches!(args.solver, None | Some(SolverName::CmaEs));
+    let reason = "names a solver of pulls: with --source cycle it is cma-es, which begins about the cycle of --from";
+    Failure::if_given(&[("--solver", other)], reason)
 }
 
-/// What was found, under each ceiling.
+/// What was found at each value of what is held, and the best of it.
 pub(crate) fn print(frontier: &Frontier, out: &mut dyn Write) -> std::io::Result<()> {
+    let held = frontier.held;
     writeln!(
         out,
-        "{:>10}{:>6}{:>14}{:>9}{:>10}{:>12}{:>12}{:>11}  holds",
-        "ceiling", "seed", "mm per cycle", "mm/s", "top mm", "heat s/m", "stiff s/m", "violation"
+        "{:>16}{:>6}{:>14}{:>9}{:>10}{:>12}{:>12}{:>7}{:>9}  standing",
+        held.name(),
+        "seed",
+        "mm per cycle",
+        "mm/s",
+        "top mm",
+        "heat s/m",
+        "stiff s/m",
+        "duty",
+        "breaks"
     )?;
     let number = |value: Option<f64>, decimals: usize| {
         value.map_or_else(|| "–".to_owned(), |value| format!("{value:.decimals$}"))
     };
     let rows = frontier.found.iter().map(|found| {
-        let ceiling = found
-            .ceiling_mm
-            .map_or_else(|| "–".to_owned(), |mm| format!("{mm} mm"));
+        let at = found
+            .at
+            .map_or_else(|| "–".to_owned(), |at| format!("{at} {}", held.unit()));
+        let standing = found.standing(held).name();
+        let violation = Some(found.violation);
         (
-            ceiling,
+            at,
             found.seed.to_string(),
             &found.confirmed,
-            Some(found.violation),
+            violation,
+            standing,
         )
     });
     let compared = frontier.compared.iter();
-    let others = compared.map(|other| (other.gait.clone(), String::new(), &other.confirmed, None));
-    for (name, seed, confirmed, violation) in rows.chain(others) {
+    let others = compared.map(|other| {
+        let standing = if other.confirmed.holds {
+            "robust"
+        } else {
+            "not robust"
+        };
+        (
+            other.gait.clone(),
+            String::new(),
+            &other.confirmed,
+            None,
+            standing,
+        )
+    });
+    for (name, seed, confirmed, violation, standing) in rows.chain(others) {
         let first = confirmed.settings.first();
         let stiff = confirmed
             .settings
@@ -200,15 +303,43 @@ pub(crate) fn print(frontier: &Frontier, out: &mut dyn Write) -> std::io::Result
             .find(|row| row.setting == SettingKind::StiffServos);
         writeln!(
             out,
-            "{name:>10}{seed:>6}{:>14}{:>9}{:>10}{:>12}{:>12}{:>11}  {}",
+            "{name:>16}{seed:>6}{:>14}{:>9}{:>10}{:>12}{:>12}{:>7}{:>9}  {standing}",
             number(first.and_then(|row| row.mm_per_cycle), 1),
             number(first.and_then(|row| row.mm_per_s), 1),
             number(first.and_then(|row| row.top_mm), 1),
             number(first.and_then(|row| row.heat_per_metre_s), 1),
             number(stiff.and_then(|row| row.heat_per_metre_s), 1),
+            number(first.and_then(|row| row.duty), 2),
             number(violation, 4),
-            if confirmed.holds { "yes" } else { "no" }
         )?;
+    }
+    print_best(frontier, out)
+}
+
+/// The best at each value, in the unit of what was searched, with the rules that it breaks.
+fn print_best(frontier: &Frontier, out: &mut dyn Write) -> std::io::Result<()> {
+    let measure = frontier.measure();
+    let mut values: Vec<Option<f64>> = frontier.found.iter().map(|found| found.at).collect();
+    values.dedup();
+    writeln!(out)?;
+    for at in values {
+        let Some(best) = frontier.best_at(at) else {
+            continue;
+        };
+        let value = best
+            .value
+            .map_or_else(|| "unknown".to_owned(), |it| measure.sentence(it));
+        let place = at.map_or_else(String::new, |at| format!(" {}", frontier.held.held_at(at)));
+        let broken = broken_sentence(best.violation, &best.broken);
+        let broken = broken.map_or_else(String::new, |it| format!(", {it}"));
+        let (standing, seed) = (best.standing(frontier.held).name(), best.seed);
+        writeln!(
+            out,
+            "best{place}: {value}{broken} ({standing}, seed {seed})"
+        )?;
+    }
+    if !frontier.complete {
+        writeln!(out, "stopped by the time budget; --resume goes on")?;
     }
     Ok(())
 }

@@ -69,6 +69,7 @@ impl Done {
             Self::Study(Outcome::Crawl(it)) => json(&it.summary),
             Self::Study(Outcome::Passage(it)) => json(&it.passage),
             Self::Study(Outcome::Cost(it)) => json(&it.cost),
+            Self::Study(Outcome::CycleCost(it)) => json(it),
             Self::Study(Outcome::Search(it)) => json(&it.result),
             Self::Study(Outcome::TorqueMap(it)) => json(&it.summary),
         }
@@ -97,6 +98,7 @@ impl Done {
                 passage::print(&it.passage, searched, out)
             }
             Self::Study(Outcome::Cost(it)) => cost::print(it, out),
+            Self::Study(Outcome::CycleCost(it)) => cost::print_cycle(it, out),
             Self::Study(Outcome::Search(done)) => match &done.result {
                 SearchResult::Pulls(it) => {
                     optimize::print(it, out)?;

@@ -15,13 +15,8 @@ use crate::args::optimize::{EndsName, OptimizeArgs, SolverName};
 use crate::plan::{self, Plan, Work};
 use crate::{Failure, cycle_search, pull_terms};
 
-/// Evaluations of a run where none are asked for.
-const BUDGET: u64 = 100_000;
-/// The same where each is a simulation.
-const DYNAMIC_BUDGET: u64 = 3_000;
-
 pub(crate) fn plan(args: &OptimizeArgs) -> Result<Plan, Failure> {
-    let experiment = if args.terms.source == "cycle" {
+    let experiment = if args.terms.source.as_deref() == Some("cycle") {
         Experiment::CycleSearch(Box::new(cycle_search::experiment(args)?))
     } else {
         Experiment::PullSearch(Box::new(experiment(args)?))
@@ -43,8 +38,8 @@ fn experiment(args: &OptimizeArgs) -> Result<PullSearchExperiment, Failure> {
     let compared = compared.iter();
     let compared = compared.map(|name| Ok(crate::gait::find(&files.gaits, name)?.1));
     let budget = match terms.source {
-        TorqueChoice::Dynamics { .. } => DYNAMIC_BUDGET,
-        TorqueChoice::Statics | TorqueChoice::Map(_) => BUDGET,
+        TorqueChoice::Dynamics { .. } => PullSearchExperiment::DYNAMIC_BUDGET,
+        TorqueChoice::Statics | TorqueChoice::Map(_) => PullSearchExperiment::BUDGET,
     };
     Ok(PullSearchExperiment {
         robot: RobotText::from_files(&files),
@@ -76,20 +71,7 @@ fn experiment(args: &OptimizeArgs) -> Result<PullSearchExperiment, Failure> {
 
 /// What belongs to whole cycles is refused, not ignored.
 fn refuse_cycle_options(args: &OptimizeArgs) -> Result<(), Failure> {
-    let given = [
-        ("--ceiling-mm", args.ceiling_mm.is_some()),
-        ("--steerable", args.steerable),
-        ("--least-advance-mm", args.least_advance_mm.is_some()),
-        (
-            "--demanded-shoulder-nm",
-            args.demanded_shoulder_nm.is_some(),
-        ),
-        ("--body-share-percent", args.body_share_percent.is_some()),
-        ("--worst-over", args.worst_over.is_some()),
-        ("--most-heat", args.most_heat.is_some()),
-        ("--most-head-n", args.most_head_n.is_some()),
-    ];
-    Failure::if_given(&given, "goes with --source cycle only")
+    Failure::if_given(&args.cycle.given(), "goes with --source cycle only")
 }
 
 fn gait_name(args: &OptimizeArgs) -> String {
@@ -171,4 +153,44 @@ pub(crate) fn print(outcome: &Outcome, out: &mut dyn Write) -> std::io::Result<(
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::{CommandFactory as _, Parser as _};
+
+    use super::*;
+    use crate::args::{Args, Command};
+
+    /// The experiment of a search whose budget was not typed.
+    fn planned(source: &str) -> Experiment {
+        let typed = "prone optimize --objective heat --seed 1 --out never --source";
+        let typed = typed.split(' ').chain([source]);
+        let Command::Optimize(args) = Args::try_parse_from(typed).unwrap().command else {
+            panic!("it is a search");
+        };
+        match plan(&args) {
+            Ok(Plan {
+                work: Work::Study(experiment),
+                ..
+            }) => experiment,
+            _ => panic!("it can be planned"),
+        }
+    }
+
+    #[test]
+    fn the_help_of_the_budget_tells_what_is_used() {
+        let budgets = ["cycle", "dynamics", "statics"].map(|source| match planned(source) {
+            Experiment::CycleSearch(it) => it.runs.budget,
+            Experiment::PullSearch(it) => it.runs.budget,
+            _ => panic!("it is a search"),
+        });
+        let [cycle, dynamics, other] = budgets;
+        let command = Args::command();
+        let optimize = command.find_subcommand("optimize").unwrap();
+        let budget = optimize.get_arguments().find(|it| it.get_id() == "budget");
+        let help = budget.unwrap().get_help().unwrap().to_string();
+        let said = format!("[default: {cycle} with cycle, {dynamics} with dynamics, else {other}]");
+        assert!(help.ends_with(&said), "{help}");
+    }
 }

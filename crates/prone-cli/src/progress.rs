@@ -5,6 +5,8 @@ use std::path::Path;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use prone_record::gait_search::Broken;
+use prone_record::measure::{Measure, broken_sentence};
 use prone_record::search::Search;
 use prone_study::watch::{self, Found, Watch};
 
@@ -48,15 +50,15 @@ impl Progress {
     }
 
     fn begin(&self, steps: usize, message: &'static str) {
+        self.bar.set_message(message);
         self.bar.set_style(self.steps.clone());
         self.bar.set_length(steps as u64);
         self.bar.set_position(0);
-        self.bar.set_message(message);
         self.bar.tick();
     }
 
     /// After a generation, or before the first one.
-    fn searched(&self, search: &Search) {
+    fn searched(&self, search: &Search, measure: Measure, broken: &[Broken]) {
         if self.bar.length() != Some(search.allowance()) || self.bar.position() == 0 {
             self.bar.set_style(self.search.clone());
             self.bar.set_length(search.allowance());
@@ -66,10 +68,13 @@ impl Progress {
         self.bar.set_position(search.evaluations());
         if let Some((run, best)) = search.best() {
             let (violation, value) = (best.score.violation(), best.score.value());
-            self.bar.set_message(format!(
-                "best: {value:.4}, violations {violation:.4}, seed {}",
-                run.seed
-            ));
+            // A value that is not known, as what is broken forbids to simulate, counts as 0.
+            let value = Some(value).filter(|value| violation <= 0.0 || *value != 0.0);
+            let value = value.map(|value| measure.sentence(value));
+            let said = [value, broken_sentence(violation, broken)];
+            let said: Vec<String> = said.into_iter().flatten().collect();
+            let (said, seed) = (said.join(", "), run.seed);
+            self.bar.set_message(format!("best: {said}, seed {seed}"));
         }
     }
 
@@ -128,7 +133,11 @@ impl Watch for Progress {
                 taken_over,
                 journal,
             } => self.measuring(rows, taken_over, journal),
-            watch::Progress::Searching(search) => self.searched(search),
+            watch::Progress::Searching {
+                search,
+                measure,
+                broken,
+            } => self.searched(search, measure, broken),
             watch::Progress::Found(checkpoint, found) => self.found(checkpoint, found),
             watch::Progress::Done(steps) => {
                 self.bar.inc(steps as u64);

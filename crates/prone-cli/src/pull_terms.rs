@@ -72,9 +72,15 @@ fn objective(
     args: &PullTermsArgs,
 ) -> Result<impl FnOnce(PullRules) -> PullObjective + use<>, Failure> {
     let name = args.objective;
-    if matches!(name, ObjectiveName::Advance | ObjectiveName::Speed) {
+    let of_cycles = [
+        (ObjectiveName::Advance, "advance"),
+        (ObjectiveName::Speed, "speed"),
+        (ObjectiveName::Duty, "duty"),
+        (ObjectiveName::Height, "height"),
+    ];
+    if let Some((_, word)) = of_cycles.iter().find(|(other, _)| *other == name) {
         return Err(Failure::Input(anyhow!(
-            "--objective advance and speed are those of whole cycles: they go with --source cycle only"
+            "--objective {word} is one of whole cycles: it goes with --source cycle only"
         )));
     }
     if name == ObjectiveName::Published {
@@ -136,7 +142,7 @@ fn objective(
 
 /// Where torques come from, with the text of a map.
 fn source(args: &PullTermsArgs, files: &RobotFiles) -> Result<TorqueChoice, Failure> {
-    let given = &*args.source;
+    let given = args.source.as_deref().unwrap_or("dynamics");
     if given == "dynamics" {
         let body_share_of = if let Some(name) = &args.body_share_of {
             BodyShareOf::Gait(find(&files.gaits, name)?.1)
@@ -148,11 +154,6 @@ fn source(args: &PullTermsArgs, files: &RobotFiles) -> Result<TorqueChoice, Fail
     }
     let path = Path::new(given);
     let source = match given {
-        "cycle" => {
-            return Err(Failure::Input(anyhow!(
-                "--source cycle is for prone optimize: prone crawl run tells what a cycle costs"
-            )));
-        }
         "statics" => TorqueChoice::Statics,
         _ if !path.exists() => {
             return Err(Failure::Input(anyhow!(

@@ -4,6 +4,7 @@ use anyhow::anyhow;
 
 use prone::scene::{Quantity, SceneError};
 use prone_record::experiment::{Experiment, Under};
+use prone_record::frontier::Quantity as Held;
 use prone_study::crawl::CrawlSetupError;
 use prone_study::run::RunError;
 use prone_study::search::cycle_jobs::CycleSearchError;
@@ -76,7 +77,20 @@ pub(crate) fn of_reproduction(error: ReproduceError) -> Failure {
 
 fn of_cycle_search(error: CycleSearchError, experiment: &Experiment) -> Failure {
     let message = match &error {
-        CycleSearchError::CeilingTwice { mm } => format!("--ceilings-mm has {mm} twice"),
+        CycleSearchError::Twice {
+            held: Held::Ceiling,
+            value,
+        } => format!("--ceilings-mm has {value} twice"),
+        CycleSearchError::Twice { value, .. } => format!("--at has {value} twice"),
+        CycleSearchError::Same { quantity } => format!(
+            "--of takes two quantities, not {} twice",
+            quantity.name()
+        ),
+        CycleSearchError::WorstOverUnused => {
+            "--worst-over with --objective peak changes what --most-heat is a share of, and nothing \
+             without it: give --most-heat, or leave it out"
+                .to_owned()
+        }
         CycleSearchError::NoRoom(error) => no_room("--ceilings-mm", *error),
         CycleSearchError::TooLow {
             ceiling_mm,
@@ -136,6 +150,9 @@ fn of_crawl(error: CrawlSetupError) -> Failure {
         CrawlSetupError::NoGears { source } => {
             Failure::Input(anyhow!("--gear-efficiency changes nothing: {source}"))
         }
+        CrawlSetupError::ShortRest { seconds, step } => Failure::Input(anyhow!(
+            "--rest-s {seconds} is shorter than a command step of {step} s, and would be no rest"
+        )),
         CrawlSetupError::Scene(error) => of_scene(error),
         other => Failure::input(other),
     }

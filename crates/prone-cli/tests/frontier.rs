@@ -119,6 +119,132 @@ fn a_killed_frontier_resumes_to_the_bytes_of_an_uninterrupted_one() {
     }
 }
 
+/// A finished search goes on where it ended, and one whose time was over where that left it: to the bytes
+/// of one that had all evaluations from the start.
+#[test]
+fn a_search_of_cycles_is_lengthened() {
+    let home = tempfile::tempdir().unwrap();
+    let at = |name: &str| home.path().join(name).display().to_string();
+    let search = |out: &str, more: &[&str]| {
+        let out = at(out);
+        let arguments = [
+            "optimize",
+            "--objective",
+            "speed",
+            "--source",
+            "cycle",
+            "--from",
+            "low-175",
+            "--seed",
+            "3",
+            "--runs",
+            "2",
+            "--out",
+            &out,
+        ];
+        let done = prone(&[&arguments, more].concat());
+        succeeded(&done);
+        String::from_utf8(done.stdout).unwrap()
+    };
+    let said = search("whole", &["--budget", "48"]);
+    assert!(
+        said.contains("\nbest: ") && said.contains(" mm/s"),
+        "{said}"
+    );
+    search("longer", &["--budget", "16"]);
+    assert!(!home.path().join("longer.checkpoint.json").exists());
+    search("longer", &["--budget", "48", "--resume"]);
+    // Time for a generation of each search at the most.
+    let said = search("timed", &["--budget", "48", "--time-budget", "0.001"]);
+    assert!(said.contains("stopped by the time budget"), "{said}");
+    search("timed", &["--budget", "48", "--resume"]);
+    let result = |name: &str| result(&home.path().join(name));
+    let whole = result("whole");
+    assert_eq!(whole, result("longer"));
+    assert_eq!(whole, result("timed"));
+    // Less is refused, and the result stays.
+    let out = at("whole");
+    let fewer = [
+        "optimize",
+        "--objective",
+        "speed",
+        "--source",
+        "cycle",
+        "--from",
+        "low-175",
+        "--seed",
+        "3",
+        "--runs",
+        "2",
+        "--budget",
+        "32",
+        "--resume",
+        "--out",
+        &out,
+    ];
+    let refused = prone(&fewer);
+    assert_eq!(refused.status.code(), Some(2));
+    let message = String::from_utf8(refused.stderr).unwrap();
+    assert!(
+        message.contains("has a budget of 48 evaluations"),
+        "{message}"
+    );
+    assert_eq!(whole, result("whole"));
+}
+
+#[test]
+fn a_frontier_is_drawn_of_any_two_quantities() {
+    let home = tempfile::tempdir().unwrap();
+    let out = home.path().join("result").display().to_string();
+    let done = prone(&[
+        "crawl",
+        "frontier",
+        "--of",
+        "speed,heat",
+        "--at",
+        "20,30",
+        "--runs",
+        "1",
+        "--seed",
+        "1",
+        "--budget",
+        "1000000",
+        "--time-budget",
+        "0.001",
+        "--out",
+        &out,
+    ]);
+    succeeded(&done);
+    let said = String::from_utf8(done.stdout).unwrap();
+    for line in [
+        "best with at least 20 mm/s: ",
+        "best with at least 30 mm/s: ",
+        " s/m",
+    ] {
+        assert!(said.contains(line), "{said}");
+    }
+    let files = result(&home.path().join("result"));
+    let text = |name: &str| String::from_utf8(files[Path::new(name)].clone()).unwrap();
+    assert!(text("frontier.csv").starts_with("least_speed_mm_s,seed,standing,setting,"));
+    let read: Value = serde_json::from_str(&text("result.json")).unwrap();
+    assert_eq!(
+        (&read["held"], &read["unit"]),
+        (&"speed".into(), &"s/m".into())
+    );
+    assert_eq!(read["complete"], false);
+    for (found, at) in read["found"].as_array().unwrap().iter().zip([20.0, 30.0]) {
+        assert_eq!(found["at"], at);
+        assert_eq!(found["gait"], format!("speed-{at}-seed-1"));
+    }
+    let figure = text("figures/frontier.svg");
+    for axis in ["least speed, mm/s", "heat per metre, s/m"] {
+        assert!(figure.contains(axis), "{axis}");
+    }
+    // Its report has the same axes.
+    let page = home.path().join("report.html").display().to_string();
+    succeeded(&prone(&["report", &out, "--out", &page]));
+}
+
 #[test]
 fn what_fits_and_what_does_not_is_said_with_its_reason() {
     let under = |mm: &str, more: &[&str]| -> Value {

@@ -13,8 +13,8 @@ mod source;
 mod torque_map;
 
 pub use cost::{
-    BodyShareOf, ClearanceChoice, CostExperiment, LimitsChoice, PullCostChoice, PullObjective,
-    PullRules, Share, TorqueChoice,
+    BodyShareOf, ClearanceChoice, CostExperiment, CycleCostExperiment, LimitsChoice,
+    PullCostChoice, PullObjective, PullRules, Share, TorqueChoice,
 };
 pub use crawl::{
     CrawlExperiment, Detail, Ending, PullExperiment, SceneChoice, ServoChoice, SteeringChoice,
@@ -22,7 +22,7 @@ pub use crawl::{
 pub use limit::Limit;
 pub use passage::{PassageCycle, PassageExperiment, PassageSearch};
 pub use search::{
-    CycleRulesChoice, CycleSearchExperiment, Ends, GaitForm, LeastDuty, NamedGait,
+    CycleRulesChoice, CycleSearchExperiment, Ends, GaitForm, LeastVerdict, NamedGait,
     PullSearchExperiment, Runs, Under, check_heights,
 };
 pub use source::{ChangedText, GaitText, RobotText, SceneText, TextError, TextFile};
@@ -42,6 +42,8 @@ pub enum Experiment {
     Passage(Box<PassageExperiment>),
     /// What a pull costs.
     Cost(Box<CostExperiment>),
+    /// What a cycle costs.
+    CycleCost(Box<CycleCostExperiment>),
     /// Pulls that cost least: `prone optimize`.
     PullSearch(Box<PullSearchExperiment>),
     /// Cycles that cost least, under one ceiling or none (`prone optimize --source cycle`) or under

@@ -1,57 +1,96 @@
 //! What a frontier leaves behind: `result.json`, `frontier.csv`, `history.csv`.
 
+mod quantity;
 mod setting_kind;
 
+pub use quantity::Quantity;
 pub use setting_kind::SettingKind;
+
+pub use crate::measure::CycleObjective;
+
+use std::cmp::Ordering;
 
 use serde::{Deserialize, Serialize};
 
 use crate::gait_search::Broken;
+use crate::measure::{Heats, Measure};
 use crate::search::Search;
 use crate::tables::{columns, maybe, number};
-
-/// What is minimised.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum CycleObjective {
-    /// ∫ Σ (τ / nominal torque)² dt per metre, s/m.
-    Heat,
-    /// Minus the advance per cycle, m.
-    Advance,
-    /// Minus the speed, m/s.
-    Speed,
-    /// ∫ Σ (τ / nominal torque)² dt per second.
-    #[serde(rename = "heat-rate")]
-    HeatRate,
-    /// Largest torque that the position error of a shoulder asks for before any limit, with the
-    /// robot's own stiffness, N·m.
-    Peak,
-}
-
-impl CycleObjective {
-    /// Name in files and records.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Heat => "heat",
-            Self::HeatRate => "heat-rate",
-            Self::Advance => "advance",
-            Self::Speed => "speed",
-            Self::Peak => "peak",
-        }
-    }
-}
 
 /// All searches of a frontier.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Frontier {
     /// What was searched.
     pub objective: CycleObjective,
+    /// Unit of [`Found::reached`].
+    #[serde(default)]
+    pub unit: String,
+    /// What a heat is in it.
+    #[serde(default)]
+    pub heats: Heats,
+    /// What is held, at the values of [`Found::at`].
+    #[serde(default)]
+    pub held: Quantity,
     /// Distance kept from the ceiling, mm.
     pub margin_mm: f64,
-    /// By ceiling and seed.
+    /// Whether every search came to its own end, or the time was over.
+    #[serde(default = "complete")]
+    pub complete: bool,
+    /// By what is held and seed.
     pub found: Vec<Found>,
     /// Other cycles in the same settings, for comparison.
     pub compared: Vec<Compared>,
+}
+
+/// Searches of cycles had no time budget once.
+const fn complete() -> bool {
+    true
+}
+
+impl Frontier {
+    /// How the values of its searches are read.
+    pub fn measure(&self) -> Measure {
+        Measure::of_cycles(self.objective, self.heats)
+    }
+
+    /// The best of what was found: what breaks less, then what is worth more.
+    pub fn best(&self) -> Option<&Found> {
+        self.found.iter().min_by(|a, b| a.order(b))
+    }
+
+    /// The best of what was found at a value of what is held.
+    pub fn best_at(&self, at: Option<f64>) -> Option<&Found> {
+        let same = |other: Option<f64>| match other.zip(at) {
+            Some((a, b)) => a.total_cmp(&b).is_eq(),
+            None => other.is_none() && at.is_none(),
+        };
+        let own = self.found.iter().filter(|found| same(found.at));
+        own.min_by(|a, b| a.order(b))
+    }
+}
+
+/// How far a point of a frontier can be counted on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Standing {
+    /// It holds in the settings of the confirmation.
+    Robust,
+    /// It keeps the rules in the settings of the search, and does not hold in those of the
+    /// confirmation.
+    Ideal,
+    /// It breaks rules of the search.
+    Broken,
+}
+
+impl Standing {
+    /// Name in tables.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Robust => "robust",
+            Self::Ideal => "ideal",
+            Self::Broken => "broken",
+        }
+    }
 }
 
 /// Another cycle in the settings of a confirmation.
@@ -66,8 +105,9 @@ pub struct Compared {
 /// What one search found.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Found {
-    /// The ceiling, mm, where there is one.
-    pub ceiling_mm: Option<f64>,
+    /// Where the held quantity is held, in its unit, where it is.
+    #[serde(alias = "ceiling_mm")]
+    pub at: Option<f64>,
     /// The seed.
     pub seed: u64,
     /// Evaluations.
@@ -76,6 +116,9 @@ pub struct Found {
     pub gait: String,
     /// The objective, as searched: minus metres per cycle, or s/m.
     pub value: Option<f64>,
+    /// The same as it is read, in the unit of the frontier.
+    #[serde(default)]
+    pub reached: Option<f64>,
     /// What it breaks of the rules of the search, in shares of their limits.
     pub violation: f64,
     /// The rules that are broken.
@@ -92,6 +135,27 @@ pub struct Found {
 }
 
 impl Found {
+    /// What breaks less comes first, then what is worth more.
+    fn order(&self, other: &Self) -> Ordering {
+        let value = |found: &Self| found.value.unwrap_or(f64::INFINITY);
+        let broken = self.violation.total_cmp(&other.violation);
+        broken.then(value(self).total_cmp(&value(other)))
+    }
+
+    /// How far it can be counted on, as a point at which a quantity is held. A confirmation judges the
+    /// ceiling itself; what else is held is a rule of the search.
+    pub fn standing(&self, held: Quantity) -> Standing {
+        let mut broken = self.broken.iter();
+        let off = held != Quantity::Ceiling && broken.any(|it| it.rule == held.name());
+        if self.confirmed.holds && !off {
+            Standing::Robust
+        } else if self.violation > 0.0 {
+            Standing::Broken
+        } else {
+            Standing::Ideal
+        }
+    }
+
     /// What it does, for the head of its file.
     pub fn sentence(&self) -> String {
         let settings = self.confirmed.settings.iter().map(|row| match row {
@@ -140,6 +204,12 @@ pub struct ConfirmedSetting {
     pub top_part: Option<String>,
     /// Heat per metre, s/m.
     pub heat_per_metre_s: Option<f64>,
+    /// Duty: RMS torque of the worst motor over what its gear passes on of the nominal torque.
+    #[serde(default)]
+    pub duty: Option<f64>,
+    /// Joint that the worst motor is named after.
+    #[serde(default)]
+    pub duty_joint: Option<String>,
     /// Largest applied torque over the manufacturer's effort limit.
     pub peak_torque_over_rated: Option<f64>,
     /// Joint in which `peak_torque_over_rated` was reached.
@@ -154,8 +224,9 @@ pub struct ConfirmedSetting {
     pub refused: Option<String>,
 }
 
-/// `frontier.csv`: one row per ceiling, seed and setting.
+/// `frontier.csv`: one row per value that is held, seed and setting.
 pub fn csv<'f>(frontier: &'f Frontier) -> Result<Vec<u8>, csv::Error> {
+    let decimals = frontier.held.decimals();
     let settings = |found: &'f Found| {
         let settings = found.confirmed.settings.iter();
         settings.map(move |setting| (found, setting))
@@ -163,8 +234,13 @@ pub fn csv<'f>(frontier: &'f Frontier) -> Result<Vec<u8>, csv::Error> {
     columns(
         frontier.found.iter().flat_map(settings),
         [
-            ("ceiling_mm", &|(found, _)| maybe(found.ceiling_mm, 1)),
+            (frontier.held.column(), &|(found, _)| {
+                maybe(found.at, decimals)
+            }),
             ("seed", &|(found, _)| found.seed.to_string()),
+            ("standing", &|(found, _)| {
+                found.standing(frontier.held).name().to_owned()
+            }),
             ("setting", &|(_, it)| it.setting.to_string()),
             ("mm_per_cycle", &|(_, it)| maybe(it.mm_per_cycle, 3)),
             ("mm_per_s", &|(_, it)| maybe(it.mm_per_s, 3)),
@@ -174,6 +250,10 @@ pub fn csv<'f>(frontier: &'f Frontier) -> Result<Vec<u8>, csv::Error> {
                 it.top_part.clone().unwrap_or_default()
             }),
             ("heat_per_metre_s", &|(_, it)| maybe(it.heat_per_metre_s, 4)),
+            ("duty", &|(_, it)| maybe(it.duty, 4)),
+            ("duty_joint", &|(_, it)| {
+                it.duty_joint.clone().unwrap_or_default()
+            }),
             ("peak_torque_over_rated", &|(_, it)| {
                 maybe(it.peak_torque_over_rated, 4)
             }),
@@ -190,20 +270,23 @@ pub fn csv<'f>(frontier: &'f Frontier) -> Result<Vec<u8>, csv::Error> {
     )
 }
 
-/// `history.csv`: one row per generation of each search, in the order of ceilings.
+/// `history.csv`: one row per generation of each search, in the order of the values at which a quantity
+/// is held. `best_value` is as searched, `best_reached` in the unit beside it.
 pub fn history_csv<'s>(
-    ceilings_mm: &'s [Option<f64>],
+    held: (Quantity, &'s [Option<f64>]),
+    measure: Measure,
     searches: &'s [Search],
 ) -> Result<Vec<u8>, csv::Error> {
+    let (held, values) = held;
     let runs = |(&ceiling, search): (&'s Option<f64>, &'s Search)| {
         let runs = search.runs().iter();
         let generations = runs.flat_map(|run| run.history.0.iter().map(move |it| (run.seed, it)));
         generations.map(move |(seed, it)| (ceiling, seed, it))
     };
     columns(
-        ceilings_mm.iter().zip(searches).flat_map(runs),
+        values.iter().zip(searches).flat_map(runs),
         [
-            ("ceiling_mm", &|(ceiling, _, _)| maybe(*ceiling, 1)),
+            (held.column(), &|(at, _, _)| maybe(*at, held.decimals())),
             ("seed", &|(_, seed, _)| seed.to_string()),
             ("generation", &|(_, _, it)| it.generation.to_string()),
             ("evaluations", &|(_, _, it)| it.evaluations.to_string()),
@@ -213,6 +296,97 @@ pub fn history_csv<'s>(
             ("best_value", &|(_, _, it)| number(it.best.value(), 6)),
             ("mean_violation", &|(_, _, it)| number(it.mean_violation, 6)),
             ("feasible", &|(_, _, it)| it.feasible.to_string()),
+            ("best_reached", &|(_, _, it)| {
+                number(measure.read(it.best.value()), 4)
+            }),
+            ("unit", &|_| measure.unit.to_owned()),
         ],
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn found(violation: f64, rule: &'static str, holds: bool) -> Found {
+        let broken = Broken {
+            rule: rule.into(),
+            count: 1,
+            sum: violation,
+        };
+        Found {
+            at: Some(40.0),
+            seed: 1,
+            evaluations: 16,
+            gait: "speed-40-seed-1".to_owned(),
+            value: Some(35.0),
+            reached: Some(35.0),
+            violation,
+            broken: Some(broken)
+                .filter(|_| violation > 0.0)
+                .into_iter()
+                .collect(),
+            refused: None,
+            unsteered: None,
+            confirmed: Confirmed {
+                holds,
+                settings: Vec::new(),
+            },
+        }
+    }
+
+    #[test]
+    fn a_point_that_is_not_where_it_is_held_is_not_robust() {
+        let standing = |violation, rule, holds, held| found(violation, rule, holds).standing(held);
+        let speed = Quantity::Speed;
+        assert_eq!(standing(0.0, "speed", true, speed), Standing::Robust);
+        assert_eq!(standing(0.0, "speed", false, speed), Standing::Ideal);
+        assert_eq!(standing(0.1, "speed", true, speed), Standing::Broken);
+        assert_eq!(standing(0.1, "head", true, speed), Standing::Robust);
+        // A confirmation judges the ceiling itself; a search has a margin below it.
+        let ceiling = Quantity::Ceiling;
+        assert_eq!(standing(0.1, "ceiling", true, ceiling), Standing::Robust);
+        assert_eq!(standing(0.1, "ceiling", false, ceiling), Standing::Broken);
+    }
+
+    /// What an earlier release wrote, which held nothing but ceilings.
+    #[test]
+    fn a_frontier_of_ceilings_is_read() {
+        let written = serde_json::json!({
+            "objective": "advance", "margin_mm": 1.0, "compared": [],
+            "found": [{
+                "ceiling_mm": 165.0, "seed": 1, "evaluations": 16, "gait": "under-165-seed-1",
+                "value": -0.1, "violation": 0.0, "confirmed": { "holds": true, "settings": [] },
+            }],
+        });
+        let read: Frontier = serde_json::from_value(written).unwrap();
+        assert_eq!((read.held, read.complete), (Quantity::Ceiling, true));
+        assert_eq!(read.best_at(Some(165.0)).unwrap().at, Some(165.0));
+        assert!(read.best_at(None).is_none() && read.best_at(Some(1.0)).is_none());
+        assert_eq!(read.measure().sentence(-0.1), "100.0 mm per cycle");
+    }
+
+    #[test]
+    fn tables_name_what_is_held() {
+        let frontier = Frontier {
+            objective: CycleObjective::Heat,
+            unit: "s/m".to_owned(),
+            heats: Heats::PerMetre,
+            held: Quantity::Speed,
+            margin_mm: 1.0,
+            complete: true,
+            found: vec![Found {
+                confirmed: Confirmed {
+                    holds: true,
+                    settings: vec![ConfirmedSetting::default()],
+                },
+                ..found(0.0, "", true)
+            }],
+            compared: Vec::new(),
+        };
+        let table = String::from_utf8(csv(&frontier).unwrap()).unwrap();
+        let head = "least_speed_mm_s,seed,standing,setting,";
+        assert!(table.starts_with(head), "{table}");
+        assert!(table.contains("\n40.000,1,robust,as it is,"), "{table}");
+    }
 }

@@ -16,6 +16,9 @@
 //! A [`Journal`] appends a line for each part as it is done; a [`Snapshot`] replaces the whole file,
 //! whose only line then is the newest state. Both hold the [`Lock`] of the result that they belong
 //! to, and neither overwrites a file that is not its own.
+//!
+//! A search that is done leaves its state in its result folder, as [`STATE_FILE`] and in the same
+//! format ([`text`]): a longer search goes on from there.
 
 mod journal;
 mod snapshot;
@@ -36,6 +39,9 @@ use crate::single_file::WriteError;
 
 pub use journal::Journal;
 pub use snapshot::{Earlier, Snapshot};
+
+/// Name of the file of a result folder in which the state of its search is.
+pub const STATE_FILE: &str = "search.state.json";
 
 /// What every head begins with; the number of the format follows.
 const MAGIC: &str = "{\"format\":\"prone unfinished work\",\"format_version\":";
@@ -193,7 +199,8 @@ struct Place {
     work: Work,
     path: PathBuf,
     plan: Value,
-    _lock: Lock,
+    /// None of a file in a result folder, which the lock of the folder covers.
+    _lock: Option<Lock>,
 }
 
 /// What is at a place, if it is no stranger.
@@ -223,29 +230,30 @@ impl Place {
         Ok(Self {
             work,
             plan,
-            _lock: work.lock(result)?,
+            _lock: Some(work.lock(result)?),
             path,
         })
     }
 
+    /// The state that a finished work has left in its result folder, under the same plan.
+    fn within(&self, result: &Path) -> Self {
+        Self {
+            work: self.work,
+            path: result.join(STATE_FILE),
+            plan: self.plan.clone(),
+            _lock: None,
+        }
+    }
+
     /// The first line.
     fn head(&self) -> Result<String, ResumptionError> {
-        let head = Head {
-            format: "prone unfinished work".to_owned(),
-            format_version: FORMAT_VERSION,
-            work: self.work.name().to_owned(),
-            plan: self.plan.clone(),
-        };
-        let text = serde_json::to_string(&head);
-        text.map(|text| text + "\n")
-            .map_err(|error| unwritten(&self.path, error.into()))
+        let text = head(self.work, self.plan.clone());
+        text.map_err(|error| unwritten(&self.path, error.into()))
     }
 
     /// One line.
     fn line(&self, state: &impl Serialize) -> Result<String, ResumptionError> {
-        let text = serde_json::to_string(state);
-        let text = text.map_err(|error| unwritten(&self.path, error.into()))?;
-        Ok(format!("[\"{}\",{text}]\n", checksum(&text)))
+        line(state).map_err(|error| unwritten(&self.path, error.into()))
     }
 
     /// Looks at the place; strangers are refused.
@@ -353,6 +361,33 @@ impl Place {
             _ => Ok(()),
         }
     }
+}
+
+/// A whole file of one state: what a result folder keeps of its work.
+///
+/// # Errors
+/// Where plan or state cannot be written as JSON.
+pub fn text(
+    work: Work,
+    plan: &impl Serialize,
+    state: &impl Serialize,
+) -> Result<String, serde_json::Error> {
+    Ok(head(work, serde_json::to_value(plan)?)? + &line(state)?)
+}
+
+fn head(work: Work, plan: Value) -> Result<String, serde_json::Error> {
+    let head = Head {
+        format: "prone unfinished work".to_owned(),
+        format_version: FORMAT_VERSION,
+        work: work.name().to_owned(),
+        plan,
+    };
+    Ok(serde_json::to_string(&head)? + "\n")
+}
+
+fn line(state: &impl Serialize) -> Result<String, serde_json::Error> {
+    let text = serde_json::to_string(state)?;
+    Ok(format!("[\"{}\",{text}]\n", checksum(&text)))
 }
 
 fn unwritten(path: &Path, source: io::Error) -> ResumptionError {

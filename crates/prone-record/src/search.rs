@@ -1,9 +1,10 @@
 //! Runs of one solver on one problem, seed by seed, with a checkpoint that goes on as if nothing
 //! had happened.
 //!
-//! Runs follow one another; each is spread over the current rayon pool a generation at a time. A
-//! [`Search`] is its own checkpoint: serialised between generations and read back, it ends in the
-//! same bytes as one that was never interrupted.
+//! Runs take turns, a generation each, so that one which is stopped early has all of them about as far
+//! as each other; a generation is spread over the current rayon pool. A [`Search`] is its own
+//! checkpoint: serialised between generations and read back, it ends in the same bytes as one that was
+//! never interrupted, and one whose budget is raised in those of one that had it from the start.
 
 use std::ops::ControlFlow;
 
@@ -82,7 +83,7 @@ pub enum SearchEnd {
 
 /// A search cannot take evaluations back.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("the interrupted search has a budget of {earlier} evaluations a run; {budget} are fewer")]
+#[error("the earlier search has a budget of {earlier} evaluations a run; {budget} are fewer")]
 pub struct SmallerBudget {
     /// What was asked for.
     pub budget: u64,
@@ -135,16 +136,21 @@ impl Search {
         scorer: &dyn Scorer,
         mut between: impl FnMut(&Self) -> ControlFlow<()>,
     ) -> SearchEnd {
-        for index in 0..self.runs.len() {
-            while self.runs[index].stopped.is_none() {
-                let budget = self.budget;
-                let reason = self.runs[index].advance(scorer, budget);
-                if reason == StopReason::Scorer || between(self).is_break() {
-                    return SearchEnd::Interrupted;
-                }
+        let budget = self.budget;
+        while let Some(run) = self.next_run() {
+            let reason = run.advance(scorer, budget);
+            let ended = self.runs.iter().all(|run| run.stopped.is_some());
+            if reason == StopReason::Scorer || (between(self).is_break() && !ended) {
+                return SearchEnd::Interrupted;
             }
         }
         SearchEnd::Finished
+    }
+
+    /// Of the runs that are not at their end, the one that has evaluated least; the first of equals.
+    fn next_run(&mut self) -> Option<&mut SeededRun> {
+        let open = self.runs.iter_mut().filter(|run| run.stopped.is_none());
+        open.min_by_key(|run| run.evaluations())
     }
 
     /// The runs, in the order of their seeds.
@@ -350,6 +356,22 @@ mod tests {
             let refused = raised.allow(1999).unwrap_err();
             assert_eq!((refused.budget, refused.earlier), (1999, 2000));
         }
+    }
+
+    #[test]
+    fn runs_that_are_stopped_are_about_as_far_as_each_other() {
+        let mut search = Search::new(Solver::DifferentialEvolution, 5, 3, 2000);
+        let mut steps = 0;
+        search.proceed(&Threads(Bowl::new()), |_| {
+            steps += 1;
+            if steps == 7 {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        });
+        let generations = search.runs().iter().map(|run| run.history.0.len());
+        assert_eq!(generations.collect::<Vec<_>>(), [3, 2, 2]);
     }
 
     #[test]

@@ -12,7 +12,7 @@ use serde_json::Value;
 use prone_files::text_file;
 
 use crate::experiment::{CycleRulesChoice, Ends, PullRules, Runs};
-use crate::frontier::CycleObjective;
+use crate::frontier::{CycleObjective, Quantity};
 use crate::program::{Program, RobotInfo};
 use crate::search::{Search, Solver};
 
@@ -181,10 +181,14 @@ pub struct CyclePlan {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum UnderPlan {
-    /// `prone crawl frontier`: several ceilings, the usual rules.
+    /// `prone crawl frontier`: a quantity that is held at several values, the usual rules.
     Frontier {
-        /// Ceilings, mm.
-        ceilings_mm: Vec<f64>,
+        /// What is held.
+        #[serde(default)]
+        held: Quantity,
+        /// At which values, in its unit.
+        #[serde(alias = "ceilings_mm")]
+        at: Vec<f64>,
         /// Distance that has to stay between robot and ceiling, mm.
         margin_mm: f64,
         /// Cycles of which one is searched about under each ceiling.
@@ -353,6 +357,8 @@ mod tests {
             let plan: SearchPlan = serde_json::from_value(written.clone()).unwrap();
             let again = serde_json::to_value(&plan).unwrap();
             for (key, value) in written.as_object().unwrap() {
+                // What the release before called ceilings is one of several quantities.
+                let key = if key == "ceilings_mm" { "at" } else { key };
                 if key != "robot" && key != "pricing" {
                     assert_eq!(&again[key], value, "{key}");
                 }

@@ -20,6 +20,7 @@ use prone::gait::cycle::Cycle;
 use prone::regime::Regime;
 use prone_files::{cycle_file, gait_file};
 use prone_record::crawl_summary::CrawlSummary;
+use prone_record::cycle_cost::CycleCost;
 use prone_record::experiment::{
     CrawlExperiment, Detail, Experiment, Limit, PassageExperiment, PullExperiment, check_heights,
 };
@@ -39,6 +40,7 @@ use crate::crawl::pull::PullRecording;
 use crate::crawl::record::{self, Recording};
 use crate::crawl::{self, CrawlRunError, CrawlSetup, summary};
 use crate::pulls::pull_record;
+use crate::search::costed_cycle;
 use crate::search::passage::{self, Offered, Passage, Plates, Under};
 use crate::search::room::NoRoom;
 use crate::search::run::Done;
@@ -84,6 +86,8 @@ pub enum Outcome {
     Passage(Box<PassageOutcome>),
     /// The cost of a pull.
     Cost(Box<CostOutcome>),
+    /// The cost of a cycle.
+    CycleCost(Box<CycleCost>),
     /// Of a search.
     Search(Box<Done>),
     /// Of a torque map.
@@ -152,6 +156,14 @@ impl Session {
                     return Err(RunError::Stopped);
                 }
                 Outcome::Cost(Box::new(cost))
+            }
+            Experiment::CycleCost(it) => {
+                let robot = LoadedRobot::load(it.robot.files()?)?;
+                let cost = costed_cycle::cost(it, &robot)?;
+                if watch.stop() {
+                    return Err(RunError::Stopped);
+                }
+                Outcome::CycleCost(Box::new(cost))
             }
             Experiment::PullSearch(it) => Outcome::Search(Box::new(self.pull_search(it, watch)?)),
             Experiment::CycleSearch(it) => Outcome::Search(Box::new(self.cycle_search(it, watch)?)),

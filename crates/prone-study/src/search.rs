@@ -16,12 +16,14 @@
 //! What was asked for becomes this in [`pull_terms`] and [`cycle_jobs`], with [`pull_error`] and [`room`]
 //! for what cannot be searched. [`settings`] are the settings of cycles, of which [`trial`] crawls one;
 //! [`corners`] are the ways in which a robot and its floor may differ from the model, the same for all who
-//! ask whether a cycle holds; [`steering`] tells whether a found cycle can be steered, and [`passage`] answers `crawl under`.
+//! ask whether a cycle holds; [`steering`] tells whether a found cycle can be steered, [`passage`] answers
+//! `crawl under`, and [`costed_cycle`] tells the cost of a single cycle.
 
 pub mod candidates;
 pub mod chain_rules;
 pub mod confirm;
 pub mod corners;
+pub mod costed_cycle;
 pub mod cycle_cost;
 pub mod cycle_form;
 pub mod cycle_jobs;

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use prone_record::gait_search::Broken;
+use prone_record::measure::Measure;
 use prone_record::search::Search;
 
 /// Is told how work goes, from many threads, and may end it.
@@ -41,7 +43,14 @@ pub enum Progress<'a> {
     /// A search has found this in the place of its checkpoint.
     Found(&'a Path, Found),
     /// A search has done one more generation, or begins.
-    Searching(&'a Search),
+    Searching {
+        /// The search.
+        search: &'a Search,
+        /// How its values are read.
+        measure: Measure,
+        /// Rules that its best breaks, as far as they are known.
+        broken: &'a [Broken],
+    },
 }
 
 /// What stands in the place of a search's checkpoint.

@@ -6,13 +6,13 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use prone_files::robot_folder::RobotFiles;
 use prone_files::shipped;
 use prone_record::experiment::{
-    ClearanceChoice, CostExperiment, CrawlExperiment, CycleRulesChoice, CycleSearchExperiment,
-    Detail, Ending, Ends, Experiment, GaitForm, GaitText, LimitsChoice, MapSource, NamedGait,
-    PassageCycle, PassageExperiment, PullCostChoice, PullExperiment, PullObjective, PullRules,
-    PullSearchExperiment, RobotText, Runs, SceneText, Share, SteeringChoice, TorqueChoice,
-    TorqueMapExperiment, Under,
+    ClearanceChoice, CostExperiment, CrawlExperiment, CycleCostExperiment, CycleRulesChoice,
+    CycleSearchExperiment, Detail, Ending, Ends, Experiment, GaitForm, GaitText, LimitsChoice,
+    MapSource, NamedGait, PassageCycle, PassageExperiment, PullCostChoice, PullExperiment,
+    PullObjective, PullRules, PullSearchExperiment, RobotText, Runs, SceneText, Share,
+    SteeringChoice, TorqueChoice, TorqueMapExperiment, Under,
 };
-use prone_record::frontier::CycleObjective;
+use prone_record::frontier::{CycleObjective, Quantity};
 use prone_record::resumption::Opening;
 use prone_record::search::Solver;
 use prone_record::search_result::SearchResult;
@@ -391,6 +391,7 @@ fn a_search_of_cycles_that_was_sent() {
             runs: 1,
             budget: 16,
         },
+        time_budget_s: None,
     };
     let asked = sent(&Experiment::CycleSearch(Box::new(experiment.clone())));
     let Outcome::Search(done) = run(&asked, &Unwatched).unwrap() else {
@@ -415,7 +416,7 @@ fn a_search_of_cycles_that_was_sent() {
         name: Some("a/b".to_owned()),
     });
     assert!(said.contains("a gait's name is made of"), "{said}");
-    for (ceilings_mm, reason) in [
+    for (at, reason) in [
         (vec![178.0, 178.0], "178 mm is there twice"),
         (vec![150.0], "150 mm is too low for NAO H25 V4"),
         (vec![1.0], "a margin of 1 mm leaves no room"),
@@ -424,8 +425,9 @@ fn a_search_of_cycles_that_was_sent() {
             "a ceiling of NaN mm is outside 1 to 10000 mm",
         ),
     ] {
-        let said = refused(Under::Ceilings {
-            ceilings_mm,
+        let said = refused(Under::Across {
+            held: Quantity::Ceiling,
+            at,
             margin_mm: 1.0,
         });
         assert!(said.contains(reason), "{said}");
@@ -442,6 +444,58 @@ fn a_search_of_cycles_that_was_sent() {
         said.contains("most_heat goes with the objectives heat"),
         "{said}"
     );
+}
+
+/// A cycle costs what a search says of it, and keeps no rule that it is held to and breaks.
+#[test]
+fn the_cost_of_a_cycle_that_was_sent() {
+    let cost = |rules: CycleRulesChoice, objective| {
+        let experiment = Experiment::CycleCost(Box::new(CycleCostExperiment {
+            robot: robot(),
+            gait: gait("low-175"),
+            from: None,
+            objective,
+            steerable: false,
+            rules,
+            worst_over: None,
+        }));
+        let Outcome::CycleCost(cost) = run(&sent(&experiment), &Unwatched).unwrap() else {
+            panic!("a cost was asked for");
+        };
+        *cost
+    };
+    let free = CycleRulesChoice {
+        most_head_n: Some(1000.0),
+        least_advance_mm: Some(10.0),
+        ..CycleRulesChoice::default()
+    };
+    let heat = cost(free, CycleObjective::Heat);
+    assert_eq!((heat.unit, heat.violations), ("s/m", 0.0));
+    let [own, stiff] = &heat.settings[..] else {
+        panic!("{heat:?}");
+    };
+    let heats = [own, stiff].map(|it| it.row.heat_per_metre_s.unwrap());
+    let mean = (heats[0] * heats[1]).sqrt();
+    assert!((heat.value.unwrap() - mean).abs() < 1e-9 * mean, "{heat:?}");
+    // A tenth more than it has is asked of it.
+    let speed = own.row.mm_per_s.unwrap();
+    let faster = CycleRulesChoice {
+        least_speed_mm_s: Some(speed / 0.9),
+        ..free
+    };
+    let broken = cost(faster, CycleObjective::Heat);
+    let rule = &broken.settings[0].broken[0];
+    assert_eq!(rule.rule, "speed");
+    assert!((rule.sum - 0.1).abs() < 1e-9, "{rule:?}");
+    let duty = own.row.duty.unwrap();
+    let gentler = CycleRulesChoice {
+        most_duty: Some(duty / 1.1),
+        ..free
+    };
+    let broken = cost(gentler, CycleObjective::Heat);
+    let rule = &broken.settings[0].broken[0];
+    assert_eq!(rule.rule, "duty");
+    assert!((rule.sum - 0.1).abs() < 1e-9, "{rule:?}");
 }
 
 #[test]

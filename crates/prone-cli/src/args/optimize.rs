@@ -4,14 +4,15 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
-use prone_record::experiment::{CycleSearchExperiment, GaitForm, PullSearchExperiment};
+use prone_record::experiment::{GaitForm, PullSearchExperiment};
 
+use super::cycle_rules::CycleRulesArgs;
 use super::named::GaitArg;
 use super::pull_terms::PullTermsArgs;
 
 #[derive(Debug, clap::Args)]
 #[command(mut_arg("argument", |arg| {
-    arg.help("Gait: a name, of the robot's own or that ships (nominal, optimal, …), or a file")
+    arg.help("Gait or cycle: a name, of the robot's own or that ships (nominal, low-175, …), or a file")
 }))]
 #[command(mut_arg("gait", |arg| arg.help("Gait, in place of the argument")))]
 #[command(after_help = "\
@@ -19,20 +20,28 @@ Examples:
   prone cost nominal --objective torque --source dynamics
   prone cost optimal --objective published --source table.csv --json
   prone cost my-gait.toml --objective heat --source statics --per metre
+  prone cost low-175 --objective speed
+  prone cost low-175 --objective heat --worst-over thesis-nominal --most-heat 0.7 --json
 
+Without --source a pull is costed by dynamics, and a cycle by cycle.
 Torque has the sign of the published recordings and is that of the right side. Violations are kept
-apart from torque: the sum of what is broken, in shares of the limit (published: violated samples).")]
+apart from torque: the sum of what is broken, in shares of the limit (published: violated samples).
+A cycle is crawled in the settings of a search; its value is printed in its own unit, with what it
+breaks in each setting.")]
 pub(crate) struct CostArgs {
     #[command(flatten)]
     pub(crate) gait: GaitArg,
     #[command(flatten)]
     pub(crate) terms: PullTermsArgs,
+    #[command(flatten)]
+    pub(crate) cycle: CycleRulesArgs,
     /// Print {"cost", "torque", "violations", …}
     #[arg(long)]
     pub(crate) json: bool,
 }
 
 #[derive(Debug, clap::Args)]
+#[command(mut_arg("source", |arg| arg.required(true)))]
 #[command(after_help = "\
 Examples:
   prone optimize --objective torque --source dynamics --seed 1 --out out/torque
@@ -48,7 +57,8 @@ The folder appears when all is done: gait.toml (for every other command), result
 confirmation.csv (the found gait simulated at other durations and in both contact regimes, beside
 those of the robot's [defaults], such as nominal and optimal), figures, run.json, timing.json. Until then the search is kept in
 OUT.checkpoint.json beside it; after Ctrl-C or a kill, --resume goes on from there and ends in the
-same bytes as a search that was never stopped. The same seed gives the same bytes on any number of
+same bytes as a search that was never stopped. A finished one can be lengthened: with --resume and a
+larger --budget it goes on from the state in its folder (search.state.json). The same seed gives the same bytes on any number of
 threads, except with --time-budget.")]
 pub(crate) struct OptimizeArgs {
     #[command(flatten)]
@@ -68,59 +78,21 @@ pub(crate) struct OptimizeArgs {
     /// Independent runs, with the seeds S, S+1, …; the best of all is kept
     #[arg(long, value_name = "R", default_value = "1", value_parser = clap::value_parser!(u64).range(1..=1000))]
     pub(crate) runs: u64,
-    /// Most evaluations of each run [default: 1600 with cycle, 3000 with dynamics, else 100000]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
+    #[arg(long, value_name = "N", help = budget_help(), value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     pub(crate) budget: Option<u64>,
-    /// Most seconds of searching in all; what is found by then is kept
-    #[arg(long, value_name = "S", value_parser = positive)]
+    /// Most seconds of searching in all, shared among runs; what is found by then is kept, and --resume
+    /// goes on from there
+    #[arg(long, value_name = "S", value_parser = seconds)]
     pub(crate) time_budget: Option<f64>,
-    /// Go on from the checkpoint of an interrupted search, if there is one; --budget may be larger
-    /// than it was
+    /// Go on from the checkpoint of an interrupted search, or from a finished one in --out, if there is
+    /// one; --budget may be larger than it was
     #[arg(long)]
     pub(crate) resume: bool,
     /// Durations at which the found gait is simulated, s [default: 1,2,3,4,5,6,7,8,9,10]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = super::phase_duration)]
     pub(crate) confirm_durations: Option<Vec<prone::gait::PhaseDuration>>,
-    /// cycle: height below which everything stays, mm [default: none]
-    #[arg(long, value_name = "H", value_parser = super::passage::height, allow_negative_numbers = true)]
-    pub(crate) ceiling_mm: Option<f64>,
-    /// cycle: only cycles that can be steered, as in `prone crawl frontier --steerable`
-    #[arg(long)]
-    pub(crate) steerable: bool,
-    /// cycle: leave out the corners, so that what is found is for good ground only
-    #[arg(long)]
-    pub(crate) ideal: bool,
-    /// cycle: size of the box about the cycle of --from, as a share of the largest: about a good cycle
-    /// a small one finds more [default: 1]
-    #[arg(long, value_name = "SHARE", value_parser = reach, allow_negative_numbers = true)]
-    pub(crate) reach: Option<f64>,
-    /// cycle: farthest from the line within 6 cycles on uneven ground with joints that are off, where
-    /// the heading is held, mm [default: any]
-    #[arg(long, value_name = "MM", value_parser = super::passage::height, allow_negative_numbers = true)]
-    pub(crate) most_drift_mm: Option<f64>,
-    /// cycle: what the motors of a robot have to be able to do [default: anything]
-    #[arg(long, value_enum)]
-    pub(crate) duty: Option<DutyName>,
-    /// cycle: least advance per cycle, mm [default: that of robot.toml for heat and peak (NAO 120), else 10]
-    #[arg(long, value_name = "MM", value_parser = super::passage::height, allow_negative_numbers = true)]
-    pub(crate) least_advance_mm: Option<f64>,
-    /// cycle: largest torque that the position error of a shoulder may ask for before any limit, N·m
-    /// [default: any]
-    #[arg(long, value_name = "NM", value_parser = positive_number, allow_negative_numbers = true)]
-    pub(crate) demanded_shoulder_nm: Option<f64>,
-    /// cycle: largest share of the weight on trunk, head and legs in the pull, percent [default: any]
-    #[arg(long, value_name = "P", value_parser = percent, allow_negative_numbers = true)]
-    pub(crate) body_share_percent: Option<f64>,
-    /// cycle, heat and peak: heat is the larger of those with normal and with stiff servos, each over
-    /// that of this cycle, instead of their geometric mean
-    #[arg(long, value_name = "GAIT")]
-    pub(crate) worst_over: Option<String>,
-    /// cycle, heat and peak: largest heat, s/m, or share with --worst-over [default: any]
-    #[arg(long, value_name = "H", value_parser = positive_number, allow_negative_numbers = true)]
-    pub(crate) most_heat: Option<f64>,
-    /// cycle: largest mean force on the head over 20 ms, N [default: 1]
-    #[arg(long, value_name = "N", value_parser = positive_number, allow_negative_numbers = true)]
-    pub(crate) most_head_n: Option<f64>,
+    #[command(flatten)]
+    pub(crate) cycle: CycleRulesArgs,
     /// Name of the found gait [default: best-OBJECTIVE]
     #[arg(long, value_name = "NAME", value_parser = name)]
     pub(crate) name: Option<String>,
@@ -144,15 +116,6 @@ pub(crate) enum EndsName {
     Free,
 }
 
-/// For how long motors have to be able to do it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum DutyName {
-    /// As long as the battery lasts
-    Continuous,
-    /// For minutes
-    Limited,
-}
-
 /// A solver's name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum SolverName {
@@ -162,6 +125,16 @@ pub(crate) enum SolverName {
     CmaEs,
     /// Genetic algorithm with MATLAB's defaults, 200 × 80: the published search
     Ga,
+}
+
+/// Help of `--budget`, which tells what is used.
+fn budget_help() -> String {
+    format!(
+        "Most evaluations of each run [default: {} with cycle, {} with dynamics, else {}]",
+        CycleSearchExperiment::BUDGET,
+        PullSearchExperiment::DYNAMIC_BUDGET,
+        PullSearchExperiment::BUDGET
+    )
 }
 
 fn gait_form(text: &str) -> Result<GaitForm, String> {
@@ -176,7 +149,8 @@ fn gait_form(text: &str) -> Result<GaitForm, String> {
     }
 }
 
-fn positive(text: &str) -> Result<f64, String> {
+/// Most seconds of searching.
+pub(crate) fn seconds(text: &str) -> Result<f64, String> {
     let seconds = super::seconds(text)?;
     if seconds > 0.0 && seconds <= PullSearchExperiment::LONGEST_S {
         Ok(seconds)
@@ -185,28 +159,6 @@ fn positive(text: &str) -> Result<f64, String> {
             "not a number of seconds greater than 0, up to {}",
             PullSearchExperiment::LONGEST_S
         ))
-    }
-}
-
-fn positive_number(text: &str) -> Result<f64, String> {
-    between(text, 0.01, 1000.0)
-}
-
-pub(super) fn reach(text: &str) -> Result<f64, String> {
-    let (least, most) = CycleSearchExperiment::REACH;
-    between(text, least, most)
-}
-
-fn percent(text: &str) -> Result<f64, String> {
-    between(text, 0.0, 100.0)
-}
-
-fn between(text: &str, least: f64, most: f64) -> Result<f64, String> {
-    let number: f64 = text.trim().parse().map_err(|_| "not a number".to_owned())?;
-    if (least..=most).contains(&number) {
-        Ok(number)
-    } else {
-        Err(format!("{number} is outside {least}..{most}"))
     }
 }
 

@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
-use prone_record::experiment::PassageExperiment;
+use prone_record::experiment::{CycleSearchExperiment, PassageExperiment};
+use prone_record::frontier::Quantity;
 
 use super::named::{GaitArgs, RobotArg};
 
@@ -60,30 +61,47 @@ Examples:
   prone crawl frontier --seed 1 --out out/frontier
   prone crawl frontier --ceilings-mm 165,200 --runs 1 --budget 800 --seed 7 --out out/short
   prone crawl frontier --against heat --seed 1 --out out/heat-frontier
+  prone crawl frontier --of ceiling,speed --at 165,180,200 --seed 1 --out out/speed
+  prone crawl frontier --of speed,heat --at 30,40,50 --time-budget 600 --seed 1 --out out/speed-heat
 
-Each ceiling is searched with each seed about one of the cycles of --from. What is found is crawled
-in other settings too: friction 0.4 and 1, time scales 0.8 and 1.7, steps of 1 ms (where it has to
-keep 80 % of its advance and the ceiling to hold), and with stiff servos, for information. The folder appears when all is done; until then the searches are kept in OUT.checkpoint.json beside it,
+Each value is searched with each seed about one of the cycles of --from. What is found is crawled
+in other settings too: friction 0.4 and 1, time scales 0.8 and 1.7, steps of 1 ms, and with stiff
+servos, for information. A point is robust where it keeps 80 % of its advance in them, below the
+ceiling; it is ideal where it keeps the rules in the settings of its search alone. The folder appears when all is done; until then the searches are kept in OUT.checkpoint.json beside it,
 and --resume goes on from there to the same bytes.")]
 pub(crate) struct FrontierArgs {
-    /// Ceilings, mm
-    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "165,183,200", value_parser = height, allow_negative_numbers = true)]
+    /// Two quantities: the first is held at several values, the second is searched at each
+    ///
+    /// They are ceiling (mm; searched, the robot's highest point), advance (mm per cycle), speed (mm/s), heat
+    /// (s/m) and duty (RMS torque of the worst motor over its nominal torque)
+    #[arg(long, value_name = "HELD,SEARCHED", default_value = "ceiling,advance", value_parser = pair)]
+    pub(crate) of: (Quantity, Quantity),
+    /// Values at which the first quantity is held: ceilings in mm, least advances in mm per cycle, least
+    /// speeds in mm/s, largest heats in s/m, largest duties [default: ceilings 165,183,200]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = value, allow_negative_numbers = true, conflicts_with = "ceilings_mm")]
+    pub(crate) at: Vec<f64>,
+    /// Ceilings, mm: --at where ceilings are held
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = height, allow_negative_numbers = true)]
     pub(crate) ceilings_mm: Vec<f64>,
-    /// What is searched under each ceiling
-    #[arg(long, value_enum, default_value = "advance")]
-    pub(crate) against: AgainstName,
-    /// Distance that has to stay between robot and ceiling, mm
-    #[arg(long, value_name = "MM", default_value = "1", value_parser = margin, allow_negative_numbers = true)]
-    pub(crate) margin_mm: f64,
-    /// Seed of the first search of each ceiling; the others follow
+    /// What is searched under each ceiling, in place of --of
+    #[arg(long, value_enum, conflicts_with = "of")]
+    pub(crate) against: Option<AgainstName>,
+    /// Distance that has to stay between robot and ceiling, mm [default: 1]
+    #[arg(long, value_name = "MM", value_parser = margin, allow_negative_numbers = true)]
+    pub(crate) margin_mm: Option<f64>,
+    /// Seed of the first search of each value; the others follow
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub(crate) seed: u64,
-    /// Searches of each ceiling
+    /// Searches of each value
     #[arg(long, value_name = "R", default_value = "3", value_parser = clap::value_parser!(u64).range(1..=100))]
     pub(crate) runs: u64,
     /// Most evaluations of each search
-    #[arg(long, value_name = "N", default_value = "1600", value_parser = clap::value_parser!(u64).range(16..=10_000_000))]
+    #[arg(long, value_name = "N", default_value_t = CycleSearchExperiment::BUDGET, value_parser = clap::value_parser!(u64).range(16..=10_000_000))]
     pub(crate) budget: u64,
+    /// Most seconds of searching in all, shared among values and runs; what is found by then is kept, and
+    /// --resume goes on from there
+    #[arg(long, value_name = "S", value_parser = super::optimize::seconds)]
+    pub(crate) time_budget: Option<f64>,
     /// Cycles about which is searched, names or files: the one that fits and comes farthest, else
     /// the lowest [default: those of the robot's [defaults], of the NAO low-175 and low-165]
     #[arg(long, value_name = "GAIT")]
@@ -97,9 +115,10 @@ pub(crate) struct FrontierArgs {
     #[arg(long)]
     pub(crate) ideal: bool,
     /// Size of the box about the cycle that is searched about, as a share of the largest
-    #[arg(long, value_name = "SHARE", default_value = "1", value_parser = super::optimize::reach, allow_negative_numbers = true)]
+    #[arg(long, value_name = "SHARE", default_value = "1", value_parser = super::cycle_rules::reach, allow_negative_numbers = true)]
     pub(crate) reach: f64,
-    /// Go on from the checkpoint of an interrupted search, if there is one
+    /// Go on from the checkpoint of an interrupted search, or from a finished one in --out, if there is
+    /// one; --budget may be larger than it was
     #[arg(long)]
     pub(crate) resume: bool,
     /// Result folder; made, or replaced if it holds an earlier result
@@ -144,6 +163,29 @@ fn length(text: &str) -> Result<f64, String> {
     } else {
         Err(format!("{number} m is outside {least}..{most} m"))
     }
+}
+
+/// Two different quantities.
+fn pair(text: &str) -> Result<(Quantity, Quantity), String> {
+    let names = Quantity::ALL.map(Quantity::name).join(", ");
+    let quantity = |name: &str| {
+        let mut all = Quantity::ALL.into_iter();
+        let found = all.find(|it| it.name() == name.trim());
+        found.ok_or_else(|| format!("there is no quantity {name:?}; there are {names}"))
+    };
+    let (held, searched) = text
+        .split_once(',')
+        .ok_or_else(|| format!("it takes two of {names}, such as ceiling,speed"))?;
+    let (held, searched) = (quantity(held)?, quantity(searched)?);
+    if held == searched {
+        return Err("a frontier is between two different quantities".to_owned());
+    }
+    Ok((held, searched))
+}
+
+/// A value of any quantity; its bounds are known with the quantity.
+fn value(text: &str) -> Result<f64, String> {
+    text.trim().parse().map_err(|_| "not a number".to_owned())
 }
 
 fn margin(text: &str) -> Result<f64, String> {

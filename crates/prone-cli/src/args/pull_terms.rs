@@ -17,7 +17,7 @@ pub(crate) struct PullTermsArgs {
     /// first pose), `statics` (the static solver), a torque map's CSV file, or `cycle` (whole cycles
     /// simulated, regime locomotion)
     #[arg(long, value_name = "FILE|statics|dynamics|cycle")]
-    pub(crate) source: String,
+    pub(crate) source: Option<String>,
     /// torque: weights of ankle, knee, hip, shoulder [default: 1,1,1,1]
     #[arg(
         long,
@@ -78,10 +78,14 @@ pub(crate) enum ObjectiveName {
     Heat,
     /// Of cycles: ∫ Σ (τ/nominal torque)² dt per second: how fast the motors warm
     HeatRate,
-    /// Of cycles: minus the advance per cycle, m
+    /// Of cycles: the largest advance per cycle, mm
     Advance,
-    /// Of cycles: minus the speed, m/s
+    /// Of cycles: the largest speed, mm/s
     Speed,
+    /// Of cycles: the least duty, RMS torque of the worst motor over its nominal torque
+    Duty,
+    /// Of cycles: the lowest highest point, mm
+    Height,
 }
 
 /// What a cost is divided by.

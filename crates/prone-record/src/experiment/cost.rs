@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{GaitText, Limit, RobotText, TextFile};
+use super::{CycleRulesChoice, GaitText, Limit, NamedGait, RobotText, TextFile};
+use crate::frontier::CycleObjective;
 
 /// The cost of one pull.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -14,6 +15,30 @@ pub struct CostExperiment {
     pub gait: GaitText,
     /// What costs are made of.
     pub terms: PullCostChoice,
+}
+
+/// The cost of one cycle, as a search of cycles would cost it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CycleCostExperiment {
+    /// The robot that would crawl.
+    pub robot: RobotText,
+    /// The cycle whose cost is asked for.
+    pub gait: GaitText,
+    /// The cycle about which would be searched: none further past a stop than it, and for advance and
+    /// speed none slower; without one the cycle itself.
+    pub from: Option<GaitText>,
+    /// What is minimised.
+    pub objective: CycleObjective,
+    /// Whether it has to be steered.
+    pub steerable: bool,
+    /// Whether the corners are left out.
+    #[serde(default)]
+    pub ideal: bool,
+    /// The rules.
+    pub rules: CycleRulesChoice,
+    /// The cycle over whose heats that of this one is.
+    pub worst_over: Option<NamedGait>,
 }
 
 /// What the costs of pulls are made of.

@@ -5,7 +5,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::{GaitText, Limit, PullCostChoice, RobotText};
-use crate::frontier::CycleObjective;
+use crate::frontier::{CycleObjective, Quantity};
 use crate::search::Solver;
 
 /// Runs of a search with seeds that follow one another.
@@ -58,6 +58,10 @@ pub struct PullSearchExperiment {
 impl PullSearchExperiment {
     /// A time budget that is none, s: thirty years.
     pub const LONGEST_S: f64 = 1e9;
+    /// Most evaluations of a run where none are asked for, on statics or a map.
+    pub const BUDGET: u64 = 100_000;
+    /// The same where each is a simulation.
+    pub const DYNAMIC_BUDGET: u64 = 3_000;
 }
 
 /// Which curves are searched.
@@ -115,6 +119,13 @@ pub struct CycleSearchExperiment {
     pub compared: Vec<GaitText>,
     /// The runs of the optimiser.
     pub runs: Runs,
+    /// Most seconds of searching in all, up to [`PullSearchExperiment::LONGEST_S`].
+    pub time_budget_s: Option<f64>,
+}
+
+impl CycleSearchExperiment {
+    /// Most evaluations of a run where none are asked for.
+    pub const BUDGET: u64 = 1600;
 }
 
 impl CycleSearchExperiment {
@@ -126,11 +137,13 @@ impl CycleSearchExperiment {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Under {
-    /// Several ceilings, by the usual rules: `prone crawl frontier`.
-    Ceilings {
-        /// Ceilings, mm.
-        ceilings_mm: Vec<f64>,
-        /// Distance that has to stay between robot and ceiling, mm.
+    /// By the usual rules, and a quantity that is held at several values: `prone crawl frontier`.
+    Across {
+        /// What is held.
+        held: Quantity,
+        /// At which values, in its unit.
+        at: Vec<f64>,
+        /// Distance that has to stay between robot and ceiling, mm, where ceilings are held.
         margin_mm: f64,
     },
     /// One ceiling or none, by rules that may be asked for: `prone optimize --source cycle`.
@@ -161,15 +174,23 @@ pub struct CycleRulesChoice {
     /// Largest mean force on the head over 20 ms, N.
     pub most_head_n: Option<f64>,
     /// Farthest from the line where the heading is held, mm.
+    #[serde(default)]
     pub most_drift_mm: Option<f64>,
+    /// Least speed, mm/s.
+    #[serde(default)]
+    pub least_speed_mm_s: Option<f64>,
+    /// Largest duty: RMS torque of the worst motor over its nominal torque.
+    #[serde(default)]
+    pub most_duty: Option<f64>,
     /// What the motors of a robot have to be able to do.
-    pub duty: Option<LeastDuty>,
+    #[serde(default)]
+    pub verdict: Option<LeastVerdict>,
 }
 
 /// For how long the motors of a robot have to be able to do what is found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum LeastDuty {
+pub enum LeastVerdict {
     /// As long as the battery lasts.
     Continuous,
     /// For minutes.
@@ -207,6 +228,13 @@ impl CycleRulesChoice {
             ("a heat", "", self.most_heat, efforts),
             ("a drift", " mm", self.most_drift_mm, lengths),
             ("a force on the head", " N", self.most_head_n, Self::HEAD_N),
+            (
+                "a least speed",
+                " mm/s",
+                self.least_speed_mm_s,
+                Quantity::Speed.bounds(),
+            ),
+            ("a duty", "", self.most_duty, Quantity::Duty.bounds()),
         ];
         let asked = |(what, unit, value, bounds): (_, _, Option<f64>, _)| {
             value.map_or(Ok(()), |value| Limit::check(what, unit, value, bounds))

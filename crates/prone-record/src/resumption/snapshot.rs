@@ -39,6 +39,8 @@ pub enum Earlier<S> {
 
 impl<S: Serialize + DeserializeOwned> Snapshot<S> {
     /// Locks the unfinished work of a result and reads what is kept of it; nothing is written yet.
+    /// Where nothing is unfinished, the state that a finished work has left in its result folder is
+    /// what is resumed.
     pub fn open(
         work: Work,
         result: &Path,
@@ -48,6 +50,7 @@ impl<S: Serialize + DeserializeOwned> Snapshot<S> {
         let place = Place::new(work, result, plan)?;
         let earlier = match (place.standing()?, opening) {
             (Standing::Nothing, Opening::Resume) if place.path.exists() => Earlier::Torn,
+            (Standing::Nothing, Opening::Resume) => finished(&place.within(result))?,
             (Standing::Nothing, _) => Earlier::Nothing,
             (Standing::Kept(_), Opening::Restart) => Earlier::Discarded { readable: true },
             (Standing::Other(_), Opening::Restart) => Earlier::Discarded { readable: false },
@@ -99,5 +102,18 @@ impl<S: Serialize + DeserializeOwned> Snapshot<S> {
     /// [`ResumptionError::Write`].
     pub fn remove(&self) -> Result<(), ResumptionError> {
         self.place.remove()
+    }
+}
+
+/// What a finished work has left in its result folder.
+fn finished<S: DeserializeOwned>(place: &Place) -> Result<Earlier<S>, ResumptionError> {
+    match place.standing()? {
+        Standing::Nothing if place.path.exists() => Ok(Earlier::Torn),
+        Standing::Nothing => Ok(Earlier::Nothing),
+        Standing::Other(format) => Err(place.other_format(format)),
+        Standing::Kept(bytes) => {
+            let (mut states, _) = place.states(&bytes)?;
+            Ok(states.pop().map_or(Earlier::Torn, Earlier::State))
+        }
     }
 }

@@ -336,3 +336,40 @@ fn limit_a_journal_needs_its_folder() {
         "cannot lock home/none/.map.csv.prone.lock: No such file or directory (os error 2)"
     );
 }
+
+/// A finished work leaves its state in its result folder; unfinished work beside it comes first.
+#[test]
+fn a_finished_search_is_resumed_from_its_result_folder() {
+    let home = tempfile::tempdir().unwrap();
+    let result = home.path().join("result");
+    fs::create_dir(&result).unwrap();
+    let statics = json!({ "source": "statics" });
+    let path = result.join(STATE_FILE);
+    let done: State = vec![1, 2, 3];
+    fs::write(&path, text(Work::Search, &statics, &done).unwrap()).unwrap();
+    let earlier = |plan: &Value, opening| snapshot(&result, plan, opening).map(|(_, it)| it);
+    let found = earlier(&statics, Opening::Resume).unwrap();
+    assert_eq!(found, Earlier::State(done.clone()));
+    // Begun anew, it does not count.
+    let found = earlier(&statics, Opening::Restart).unwrap();
+    assert_eq!(found, Earlier::Nothing);
+    let refused = refusal(
+        earlier(&json!({ "source": "dynamics" }), Opening::Resume),
+        home.path(),
+    );
+    let said = "source was \"statics\", and is \"dynamics\" now";
+    assert!(refused.contains(said), "{refused}");
+    assert!(refused.contains(STATE_FILE), "{refused}");
+    let (mut unfinished, _) = snapshot(&result, &statics, Opening::Restart).unwrap();
+    unfinished.write(&vec![4]).unwrap();
+    drop(unfinished);
+    let found = earlier(&statics, Opening::Resume).unwrap();
+    assert_eq!(found, Earlier::State(vec![4]));
+    Work::Search.beside(&result).metadata().unwrap();
+    fs::remove_file(Work::Search.beside(&result)).unwrap();
+    // A changed number is noticed there too.
+    let kept = fs::read_to_string(&path).unwrap();
+    fs::write(&path, kept.replace("[1,2,3]", "[1,2,4]")).unwrap();
+    let refused = refusal(earlier(&statics, Opening::Resume), home.path());
+    assert!(refused.contains("line 2"), "{refused}");
+}

@@ -1,54 +1,78 @@
-//! The ceiling against what a crawl reaches below it: advance, and heat.
+//! What was reached against what is held: a frontier, its best points joined.
+//!
+//! The upper panel has what was searched. The lower one has what it takes: heat, or the advance where
+//! heat was searched.
 
 use super::axis::{Axis, extremes};
 use super::panel::{Curve, Panel};
 use super::sheet::{KeyEntry, Sheet};
 use super::style::{
-    CURVE_WIDTH, Dash, Fill, MARKER_RADIUS, Marker, REFERENCE, Stroke, gait_shape, gait_stroke,
+    CURVE_WIDTH, Dash, Fill, MARKER_RADIUS, Marker, REFERENCE, Shape, Stroke, gait_stroke,
 };
 use super::svg::Point;
 use super::{Figure, FigureError, Wording};
-use prone_record::frontier::{ConfirmedSetting, CycleObjective, Found, Frontier, SettingKind};
+use prone_record::frontier::{
+    ConfirmedSetting, CycleObjective, Found, Frontier, Quantity, SettingKind, Standing,
+};
 
-/// The ceiling against what was reached below it; `None` where nothing was found.
+/// What is held against what was reached there; `None` where nothing was found.
 pub fn figure(frontier: &Frontier) -> Result<Option<Figure>, FigureError> {
-    let advance = panel(frontier, "advance per cycle, mm", |row| row.mm_per_cycle);
-    let heat = panel(frontier, "heat per metre, s/m", |row| row.heat_per_metre_s);
-    let panels: Vec<Panel> = [advance, heat].into_iter().flatten().collect();
+    let searched = Quantity::of_objective(frontier.objective).unwrap_or(Quantity::Advance);
+    let beside = match searched {
+        Quantity::Heat => Quantity::Advance,
+        _ => Quantity::Heat,
+    };
+    let shown = [searched, beside];
+    let panels = shown.map(|quantity| panel(frontier, quantity));
+    let panels: Vec<Panel> = panels.into_iter().flatten().collect();
     if panels.is_empty() {
         return Ok(None);
     }
-    let one = |label: &str, fill: Fill| {
+    let one = |label: &str, standing: Standing| {
         let no_line = Stroke::solid(REFERENCE, 0.0);
-        KeyEntry::line(label.to_owned(), no_line, Some(marker(fill)))
+        KeyEntry::line(label.to_owned(), no_line, Some(marker(standing)))
     };
     let key = [
-        KeyEntry::line("best of each ceiling".to_owned(), line(), None),
-        one("one search, holds", Fill::Full),
-        one("one search, does not", Fill::Hollow),
+        KeyEntry::line("best of each value".to_owned(), line(), None),
+        one("robust", Standing::Robust),
+        one("ideal only", Standing::Ideal),
+        one("breaks rules", Standing::Broken),
     ];
     let sheet = Sheet::new(1, 250.0, panels).with_key(key);
+    let held = frontier.held;
+    let margin = match held {
+        Quantity::Ceiling => format!("; {} mm are kept free of the ceiling", frontier.margin_mm),
+        _ => String::new(),
+    };
     let wording = Wording {
         stem: "frontier".to_owned(),
         number: "",
-        title: "What is reached under a ceiling".to_owned(),
+        title: match held {
+            Quantity::Ceiling => "What is reached under a ceiling".to_owned(),
+            _ => format!("What is reached where the {} is held", held.name()),
+        },
         caption: format!(
-            "Crawls searched for the {} under ceilings of several heights, {} mm kept free. \
-             Ours, simulated: friction 0.7, the manufacturer's effort and joint limits on, 2.5 ms steps. \
-             A search holds where, without touching the ceiling, it keeps 80 % of its advance at \
-             friction 0.4 and 1, 0.8 and 1.7 times its duration and with 1 ms steps.",
+            "Crawls searched for the {}, with the {} held at several values{margin}. Ours, simulated: \
+             friction 0.7, the manufacturer's effort and joint limits on, 2.5 ms steps. Robust: without \
+             touching the ceiling, it keeps 80 % of its advance at friction 0.4 and 1, 0.8 and 1.7 times \
+             its duration and with 1 ms steps. Ideal: it keeps the rules of its search, and not that.",
             match frontier.objective {
                 CycleObjective::Heat => "least heat per metre",
                 CycleObjective::HeatRate => "least heat per second",
                 CycleObjective::Advance => "largest advance",
                 CycleObjective::Speed => "largest speed",
                 CycleObjective::Peak => "least torque demanded of a shoulder",
+                CycleObjective::Duty => "least duty of the worst motor",
+                CycleObjective::Height => "lowest highest point",
             },
-            frontier.margin_mm
+            held.name(),
         ),
-        alt:
-            "Two plots over the height of the ceiling: advance per cycle and motor heat per metre."
-                .to_owned(),
+        alt: format!(
+            "Plots over the {}: {}, and {}.",
+            held.held_axis(),
+            searched.reached_axis(),
+            beside.reached_axis()
+        ),
     };
     sheet.figure(wording).map(Some)
 }
@@ -57,39 +81,52 @@ fn line() -> Stroke {
     gait_stroke(0).with_dash(Dash::Solid)
 }
 
-fn marker(fill: Fill) -> Marker {
-    Marker::new(gait_shape(0), fill, MARKER_RADIUS)
+fn marker(standing: Standing) -> Marker {
+    let (shape, fill) = match standing {
+        Standing::Robust => (Shape::Circle, Fill::Full),
+        Standing::Ideal => (Shape::Circle, Fill::Hollow),
+        Standing::Broken => (Shape::Triangle, Fill::Hollow),
+    };
+    Marker::new(shape, fill, MARKER_RADIUS)
 }
 
-/// One search: ceiling and what was reached below it, whether that holds, and its own measure.
+/// One search: where what is held is held, what was reached there, how far it can be counted on, and
+/// its own measure.
 struct Search {
     at: Point,
-    holds: bool,
+    standing: Standing,
     value: f64,
 }
 
-fn panel(
-    frontier: &Frontier,
-    label: &str,
-    reached: impl Fn(&ConfirmedSetting) -> Option<f64>,
-) -> Option<Panel> {
+impl Search {
+    /// What is best is robust rather than ideal, then best by the search's own measure.
+    fn beats(&self, other: &Self) -> bool {
+        let rank = |standing| match standing {
+            Standing::Robust => 2,
+            Standing::Ideal => 1,
+            Standing::Broken => 0,
+        };
+        (rank(self.standing), -self.value) > (rank(other.standing), -other.value)
+    }
+}
+
+fn panel(frontier: &Frontier, quantity: Quantity) -> Option<Panel> {
     let search = |found: &Found| {
         let mut settings = found.confirmed.settings.iter();
-        let row = settings.find(|row| row.setting == SettingKind::AsItIs)?;
-        let reached = reached(row).filter(|value| value.is_finite())?;
+        let row: &ConfirmedSetting = settings.find(|row| row.setting == SettingKind::AsItIs)?;
+        let reached = quantity.reached(row).filter(|value| value.is_finite())?;
         Some(Search {
-            at: (found.ceiling_mm?, reached),
-            holds: found.confirmed.holds,
+            at: (found.at?, reached),
+            standing: found.standing(frontier.held),
             value: found.value.unwrap_or(f64::INFINITY),
         })
     };
     let searches: Vec<Search> = frontier.found.iter().filter_map(search).collect();
-    // The best by the search's own measure, holding ones first.
     let mut best: Vec<&Search> = Vec::new();
     for search in &searches {
         let same = |old: &&mut &Search| old.at.0.total_cmp(&search.at.0).is_eq();
         match best.iter_mut().find(same) {
-            Some(old) if (search.holds, -search.value) > (old.holds, -old.value) => *old = search,
+            Some(old) if search.beats(old) => *old = search,
             Some(_) => {}
             None => best.push(search),
         }
@@ -100,16 +137,13 @@ fn panel(
     curves.extend(searches.iter().map(|search| Curve {
         points: vec![search.at],
         stroke: Stroke::solid(gait_stroke(0).colour, CURVE_WIDTH),
-        marker: Some(marker(if search.holds {
-            Fill::Full
-        } else {
-            Fill::Hollow
-        })),
+        marker: Some(marker(search.standing)),
     }));
     let (low, high) = extremes(searches.iter().map(|search| search.at.0))?;
-    let room = (0.08 * (high - low)).max(2.0);
-    let x = Axis::exactly("ceiling above the floor, mm", low - room, high + room);
+    // A hundredth of the value where there is one alone.
+    let room = (0.08 * (high - low)).max(0.012 * high.abs());
+    let x = Axis::exactly(frontier.held.held_axis(), low - room, high + room);
     let values = searches.iter().map(|search| search.at.1);
-    let y = Axis::covering(label, values.chain([0.0]));
+    let y = Axis::covering(quantity.reached_axis(), values.chain([0.0]));
     Some(Panel::new("", x, y, curves))
 }

@@ -1,7 +1,8 @@
 //! What searches found, and under which conditions each run was made.
 
 use maud::{Markup, html};
-use prone_record::frontier::{ConfirmedSetting, Found, Frontier};
+use prone_record::frontier::{ConfirmedSetting, Found, Frontier, Quantity};
+use prone_record::measure::broken_sentence;
 
 use super::folder::Given;
 use super::html_table::{optional, table};
@@ -75,27 +76,34 @@ fn cycles(name: &str, result: &Frontier) -> Markup {
         let row = found.confirmed.settings.first();
         optional(row.and_then(of), |value| format!("{value:.decimals$}"))
     };
+    let measure = result.measure();
     let caption = html! {
-        strong { "Cycles, " (name) "." } " Searched for " (result.objective.name()) ", "
-        (result.margin_mm) " mm kept free of the ceiling; ours, simulated in the regime \
-         locomotion. Holds: keeps 80 % of its advance without touching in all other settings \
-         of the confirmation."
+        strong { "Cycles, " (name) "." } " Searched for " (measure.what)
+        @if result.held == Quantity::Ceiling {
+            ", " (result.margin_mm) " mm kept free of the ceiling"
+        }
+        "; ours, simulated in the regime locomotion. Robust: in all other settings of the \
+         confirmation it keeps 80 % of its advance without touching. Ideal: it keeps the rules of its \
+         search only."
     };
     html! {
         (table(caption, &[
-            "cycle", "ceiling", "seed", "evaluations", "advance", "speed", "highest point", "heat", "holds",
+            "cycle", result.held.name(), "seed", "evaluations", "searched", "advance", "speed",
+            "highest point", "heat", "duty", "standing",
         ], result.found.iter().map(|found| html! {
             th scope="row" { (found.gait) }
-            td { (optional(found.ceiling_mm, |height| format!("{height:.0} mm"))) }
+            td { (optional(found.at, |at| format!("{at} {}", result.held.unit()))) }
             td { (found.seed) }
             td { (found.evaluations) }
+            td { (optional(found.value, |value| measure.sentence(value))) }
             td { (first(found, |row: &ConfirmedSetting| row.mm_per_cycle, 1)) " mm" }
             td { (first(found, |row| row.mm_per_s, 1)) " mm/s" }
             td { (first(found, |row| row.top_mm, 0)) " mm" }
             td { (first(found, |row| row.heat_per_metre_s, 0)) " s/m" }
+            td { (first(found, |row| row.duty, 2)) }
             td {
-                @if found.confirmed.holds { "yes" } @else { "no" }
-                @if found.violation > 0.0 { ", breaks rules" }
+                (found.standing(result.held).name())
+                @if let Some(broken) = broken_sentence(found.violation, &found.broken) { ", " (broken) }
             }
         })))
     }

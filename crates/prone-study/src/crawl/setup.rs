@@ -95,6 +95,10 @@ impl CrawlSetup {
             let known = robot.robot().check_motors();
             known.map_err(|source| CrawlSetupError::NoGears { source })?;
         }
+        let (seconds, step) = (experiment.rest_s, robot.robot().control.command_step);
+        if seconds > 0.0 && seconds < step {
+            return Err(CrawlSetupError::ShortRest { seconds, step });
+        }
         let gait = GaitSource::from_text(&experiment.gait)?;
         let uphill = experiment.uphill.as_ref().map(GaitSource::from_text);
         let uphill = uphill.transpose()?;

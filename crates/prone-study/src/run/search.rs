@@ -8,7 +8,7 @@ use prone_files::gait_file;
 use prone_record::experiment::{CostExperiment, CycleSearchExperiment, PullSearchExperiment};
 use prone_record::gait_search::PullCost;
 use prone_record::resumption::{Earlier, Opening, Snapshot, Work};
-use prone_record::search::{Search, SearchEnd};
+use prone_record::search::Search;
 use prone_sim::{LoadedRobot, World};
 
 use super::{RunError, Session};
@@ -84,7 +84,8 @@ impl Session {
         self.check_place()?;
         let robot = LoadedRobot::load(experiment.robot.files()?)?;
         let run = CycleRun::new(experiment, &robot, &self.program, watch)?;
-        self.search(&run, None, watch)
+        let time = experiment.time_budget_s.map(Duration::from_secs_f64);
+        self.search(&run, time, watch)
     }
 
     /// Searches, confirms, and puts the result folder in place.
@@ -122,10 +123,9 @@ impl Session {
             (error, _) => error,
         };
         let done = done.map_err(|error| kept(error.into()))?;
-        let published = self.publish(&done.artefacts, watch, || match (&checkpoint, done.end) {
-            (Some(checkpoint), SearchEnd::Finished) => Ok(checkpoint.remove()?),
-            // One that a time budget ended can still go on.
-            _ => Ok(()),
+        // It can still go on, from the state in the result folder.
+        let published = self.publish(&done.artefacts, watch, || {
+            checkpoint.as_ref().map_or(Ok(()), |it| Ok(it.remove()?))
         });
         published.map_err(kept)?;
         Ok(done)

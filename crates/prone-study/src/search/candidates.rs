@@ -1,5 +1,7 @@
 //! What a search looks at: points that stand for gaits, and what these cost.
 
+use std::sync::{Mutex, PoisonError};
+
 use prone::gait::cycle::CycleError;
 use prone::gait::{CurveError, PhaseDurationError};
 use prone_optim::{Failure, Interval, Problem, Score};
@@ -25,15 +27,16 @@ pub trait Candidates: Send + Sync + 'static {
     /// The cost of a gait, which depends on nothing but the gait.
     fn cost(&self, gait: &Self::Gait, depth: Depth) -> Cost;
 
-    /// What an optimiser sees of a point.
+    /// What an optimiser sees of a point, and the rules that are broken there, as far as they are known.
     ///
     /// # Errors
     /// [`Failure`] where the point has no gait.
-    fn score(&self, point: &[f64]) -> Result<Score, Failure> {
+    fn score(&self, point: &[f64]) -> Result<(Score, Vec<Broken>), Failure> {
         let gait = self
             .gait(point)
             .map_err(|error| Failure::from_error(&error))?;
-        Ok(self.cost(&gait, Depth::UntilBroken).score())
+        let cost = self.cost(&gait, Depth::UntilBroken);
+        Ok((cost.score(), cost.broken))
     }
 }
 
@@ -138,23 +141,94 @@ impl Cost {
     }
 }
 
-/// Candidates as the problem of an optimiser.
+/// Candidates as the problem of an optimiser. It remembers which rules the best one breaks, for
+/// whoever watches.
 #[derive(Debug)]
-pub struct Searched<'a, C>(pub &'a C);
+pub struct Searched<'a, C> {
+    candidates: &'a C,
+    best: Mutex<Option<(Score, Vec<Broken>)>>,
+}
+
+impl<'a, C> Searched<'a, C> {
+    /// Nothing of them has been looked at.
+    pub const fn new(candidates: &'a C) -> Self {
+        Self {
+            candidates,
+            best: Mutex::new(None),
+        }
+    }
+
+    /// The rules that a score's candidate breaks, if it is the best that was looked at; none of one that
+    /// an earlier program has found.
+    pub fn broken_by(&self, score: &Score) -> Vec<Broken> {
+        let best = self.best.lock().unwrap_or_else(PoisonError::into_inner);
+        let own = best.as_ref().filter(|(best, _)| best == score);
+        own.map_or_else(Vec::new, |(_, broken)| broken.clone())
+    }
+
+    fn remember(&self, score: Score, broken: Vec<Broken>) {
+        let mut best = self.best.lock().unwrap_or_else(PoisonError::into_inner);
+        if best.as_ref().is_none_or(|(best, _)| score.beats(best)) {
+            *best = Some((score, broken));
+        }
+    }
+}
 
 impl<C: Candidates> Problem for Searched<'_, C> {
     fn bounds(&self) -> &[Interval] {
-        self.0.bounds()
+        self.candidates.bounds()
     }
 
     fn evaluate(&self, point: &[f64]) -> Result<Score, Failure> {
-        self.0.score(point)
+        let (score, broken) = self.candidates.score(point)?;
+        if !broken.is_empty() {
+            self.remember(score, broken);
+        }
+        Ok(score)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Points of one number, whose amount above 1 is broken.
+    struct Line([Interval; 1]);
+
+    impl Candidates for Line {
+        type Gait = f64;
+
+        fn bounds(&self) -> &[Interval] {
+            &self.0
+        }
+
+        fn gait(&self, point: &[f64]) -> Result<f64, PointError> {
+            Ok(point[0])
+        }
+
+        fn cost(&self, gait: &f64, _: Depth) -> Cost {
+            let mut cost = Cost {
+                value: -gait,
+                ..Cost::default()
+            };
+            let rule = if *gait > 2.0 { "far" } else { "near" };
+            cost.add(rule, (gait - 1.0).max(0.0));
+            cost
+        }
+    }
+
+    #[test]
+    fn the_rules_that_the_best_breaks_are_remembered() {
+        let line = Line([Interval::new(0.0, 4.0).unwrap()]);
+        let searched = Searched::new(&line);
+        let scores = [3.0, 1.5, 2.5].map(|x| searched.evaluate(&[x]).unwrap());
+        let rules = |score: &Score| {
+            let broken = searched.broken_by(score).into_iter();
+            broken.map(|it| it.rule.into_owned()).collect::<Vec<_>>()
+        };
+        assert_eq!(rules(&scores[1]), ["near"]);
+        assert!(rules(&scores[0]).is_empty() && rules(&scores[2]).is_empty());
+    }
 
     #[test]
     fn limit_an_unknown_value_never_wins() {

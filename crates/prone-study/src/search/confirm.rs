@@ -109,7 +109,8 @@ fn confirmed_cycle(
     }
 }
 
-fn cycle_row(setting: &Setting, trial: &Trial, kept: f64) -> ConfirmedSetting {
+/// What a record says of a trial.
+pub(super) fn cycle_row(setting: &Setting, trial: &Trial, kept: f64) -> ConfirmedSetting {
     ConfirmedSetting {
         setting: setting.spec.kind,
         mm_per_cycle: Some(trial.advance * 1e3),
@@ -118,6 +119,8 @@ fn cycle_row(setting: &Setting, trial: &Trial, kept: f64) -> ConfirmedSetting {
         top_mm: Some(trial.top.0 * 1e3),
         top_part: Some(trial.top.1.name().to_owned()),
         heat_per_metre_s: Some(trial.heat_per_metre).filter(|heat| heat.is_finite()),
+        duty: Some(trial.duty.0).filter(|duty| duty.is_finite()),
+        duty_joint: Some(trial.duty.1.clone()).filter(|_| trial.duty.0.is_finite()),
         peak_torque_over_rated: Some(trial.peak_over_limit.0),
         peak_joint: Some(trial.peak_over_limit.1.clone()),
         demanded_shoulder_nm: Some(trial.demanded_shoulder),

@@ -1,8 +1,8 @@
 //! What a whole cycle costs, by simulation in the locomotion regime.
 //!
 //! A cycle is crawled in one or more settings (friction, servo, time scale). In the main ones the
-//! value counts: heat per metre, merged over servos ([`Merge`]), advance per cycle, speed, or what a
-//! shoulder's servo demands. In all but those of [`Role::Beside`] nothing may be higher than the
+//! value counts: heat per metre, merged over servos ([`Merge`]), advance per cycle, speed, duty of the
+//! worst motor, height, or what a shoulder's servo demands. In all but those of [`Role::Beside`] nothing may be higher than the
 //! ceiling and the advance has to be enough; [`CycleRules`] may ask for no more of a shoulder's servo
 //! (with the robot's own gains), no more weight on trunk, head and legs in the pull (where values count),
 //! no more heat. Limbs are kept apart in the plan, not in what lags behind it. What is broken adds
@@ -135,11 +135,11 @@ impl CycleCosts {
                 return Err(CycleCostError::Merge { others, settings });
             }
         }
-        let by_heat = matches!(
+        let warm = matches!(
             aim.objective,
-            CycleObjective::Heat | CycleObjective::HeatRate
-        );
-        let warm = by_heat || aim.rules.heat < f64::INFINITY;
+            CycleObjective::Heat | CycleObjective::HeatRate | CycleObjective::Duty
+        ) || aim.rules.heat < f64::INFINITY
+            || aim.rules.most_duty < f64::INFINITY;
         if warm {
             world.robot().check_motors()?;
         }
@@ -306,6 +306,8 @@ fn value(objective: CycleObjective, valued: &[&Trial], kept: &[&Trial], merge: &
         CycleObjective::Advance => worst(|trial| trial.advance),
         CycleObjective::Speed => worst(Trial::speed),
         CycleObjective::Peak => first(|trial| trial.demanded_shoulder),
+        CycleObjective::Duty => first(|trial| trial.duty.0),
+        CycleObjective::Height => first(|trial| trial.top.0),
     }
 }
 

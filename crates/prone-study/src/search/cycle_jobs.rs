@@ -1,4 +1,5 @@
-//! What is searched under each ceiling: the cycle that is searched about, the rules, the plan.
+//! What is searched at each value of what is held, a ceiling in most cases: the cycle that is searched
+//! about, the rules, the plan.
 
 use std::sync::Arc;
 
@@ -9,10 +10,11 @@ use prone::robot::Robot;
 use prone_files::cycle_file;
 use prone_files::plain_name::{self, GaitNameError};
 use prone_record::experiment::{
-    CycleRulesChoice, CycleSearchExperiment, LeastDuty, Limit, NamedGait, TextError, Under,
-    check_heights,
+    CycleRulesChoice, CycleSearchExperiment, LeastVerdict, Limit, NamedGait, PullSearchExperiment,
+    TextError, Under, check_heights,
 };
-use prone_record::frontier::CycleObjective;
+use prone_record::frontier::{CycleObjective, Quantity};
+use prone_record::measure::Heats;
 use prone_record::program::{Program, RobotInfo};
 use prone_record::search::Solver;
 use prone_record::search_plan::{CyclePlan, OnePlan, SearchHead, UnderPlan};
@@ -41,12 +43,23 @@ pub enum CycleSearchError {
     /// A cycle cannot be read.
     #[error(transparent)]
     Text(#[from] TextError),
-    /// A ceiling stands twice in the list.
-    #[error("{mm} mm is there twice")]
-    CeilingTwice {
-        /// The ceiling, mm.
-        mm: f64,
+    /// A value stands twice in the list.
+    #[error("{value} {} is there twice", held.unit())]
+    Twice {
+        /// What is held.
+        held: Quantity,
+        /// At which value, in its unit.
+        value: f64,
     },
+    /// A frontier is between two quantities.
+    #[error("a frontier is between two quantities, not between {0} and {0}", quantity.name())]
+    Same {
+        /// The one that was given twice.
+        quantity: Quantity,
+    },
+    /// The other cycle's heats would not be looked at.
+    #[error("worst_over changes nothing of the objective peak without most_heat")]
+    WorstOverUnused,
     /// The margin leaves nothing of a ceiling.
     #[error(transparent)]
     NoRoom(#[from] NoRoom),
@@ -115,46 +128,106 @@ pub fn jobs(
     let from = experiment.from.iter();
     let from = from.map(|it| it.gait.parse(cycle_file::parse));
     let from: Vec<Cycle> = from.collect::<Result<_, _>>()?;
-    let ceilings = ceilings(&experiment.under);
-    check(experiment, &ceilings, robot.robot())?;
-    let mut searched = settings::for_search(objective, robot)?;
-    let (least, most) = CycleSearchExperiment::REACH;
-    Limit::check("a reach", "", experiment.reach, (least, most))?;
+    let points = points(&experiment.under);
+    check(experiment, &points, robot.robot())?;
+    let held = held(&experiment.under);
+    let scope = Scope {
+        objective,
+        held: Some(held),
+        steerable: experiment.steerable,
+        ideal: experiment.ideal,
+    };
+    let searched = searched(scope, robot)?;
+    Limit::check(
+        "a reach",
+        "",
+        experiment.reach,
+        CycleSearchExperiment::REACH,
+    )?;
     let free = Free {
         reach: experiment.reach,
         turns: experiment.steerable,
     };
-    if experiment.steerable {
-        searched.extend(settings::for_steering(robot)?);
-    }
-    if !experiment.ideal {
-        searched.extend(settings::searched_corners(robot)?);
-    }
-    let searched: Arc<[Setting]> = searched.into();
     let (merge, asked) = match &experiment.under {
-        Under::Ceilings { .. } => (Merge::Mean, CycleRulesChoice::default()),
+        Under::Across { .. } => (Merge::Mean, CycleRulesChoice::default()),
         Under::One {
             rules, worst_over, ..
         } => (merge(worst_over.as_ref(), &searched)?, *rules),
     };
-    let job = |Ceiling { mm, height }| {
+    let job = |Point { at, height }| {
         if watch.stop() {
             return Err(CycleSearchError::Stopped);
         }
-        let base = base(robot, &searched[0], &from, height)?;
+        // A search for the lowest cycle begins at the lowest one.
+        let below = match objective {
+            CycleObjective::Height => 0.0,
+            _ => height,
+        };
+        let base = base(robot, &searched[0], &from, below)?;
+        let usual = usual_rules(objective, height, base, robot.robot());
         let aim = CycleAim {
             objective,
             merge: merge.clone(),
-            rules: asked_rules(&asked, usual_rules(objective, height, base, robot.robot())),
+            rules: held_rules(held, at, asked_rules(&asked, usual)),
         };
         let job = Job {
-            ceiling_mm: mm,
+            at,
             base: base.name.clone(),
             candidates: CycleSearch::new(robot.robot(), &searched, aim, base, free)?,
         };
         Ok((job, base.clone()))
     };
-    ceilings.into_iter().map(job).collect()
+    points.into_iter().map(job).collect()
+}
+
+/// Settings in which cycles are searched for an objective, with those that show what is held and whether
+/// a cycle can be steered.
+pub fn searched(scope: Scope, robot: &LoadedRobot) -> Result<Arc<[Setting]>, SettingError> {
+    let objective = scope.objective;
+    let mut searched = settings::for_search(objective, robot)?;
+    let with_stiff = matches!(objective, CycleObjective::Heat | CycleObjective::Peak);
+    if scope.held == Some(Quantity::Heat) && !with_stiff {
+        searched.extend(settings::for_held_heat(robot)?);
+    }
+    if scope.steerable {
+        searched.extend(settings::for_steering(robot)?);
+    }
+    if !scope.ideal {
+        searched.extend(settings::searched_corners(robot)?);
+    }
+    Ok(searched.into())
+}
+
+/// What a search looks at.
+#[derive(Debug, Clone, Copy)]
+pub struct Scope {
+    /// What is minimised.
+    pub objective: CycleObjective,
+    /// What is held, of a frontier.
+    pub held: Option<Quantity>,
+    /// Whether only cycles that can be steered count.
+    pub steerable: bool,
+    /// Whether the corners are left out.
+    pub ideal: bool,
+}
+
+/// What is held.
+pub const fn held(under: &Under) -> Quantity {
+    match under {
+        Under::Across { held, .. } => *held,
+        Under::One { .. } => Quantity::Ceiling,
+    }
+}
+
+/// What the heats of a search are.
+pub const fn heats(under: &Under) -> Heats {
+    match under {
+        Under::One {
+            worst_over: Some(_),
+            ..
+        } => Heats::OverAnother,
+        Under::Across { .. } | Under::One { .. } => Heats::PerMetre,
+    }
 }
 
 /// What `run.json` says of a search.
@@ -165,7 +238,7 @@ pub fn plan(
     program: &Program,
 ) -> CyclePlan {
     let command = match &experiment.under {
-        Under::Ceilings { .. } => "crawl frontier",
+        Under::Across { .. } => "crawl frontier",
         Under::One { .. } => "optimize",
     };
     let engine = prone_sim::engine_version();
@@ -192,51 +265,93 @@ pub fn plan(
     }
 }
 
-/// A ceiling, mm, where there is one, and the height below which everything stays, m.
+/// Where something is held, in its unit, if it is; and the height below which everything stays, m.
 #[derive(Debug, Clone, Copy)]
-struct Ceiling {
-    mm: Option<f64>,
+struct Point {
+    at: Option<f64>,
     height: f64,
 }
 
-fn ceilings(under: &Under) -> Vec<Ceiling> {
+fn points(under: &Under) -> Vec<Point> {
     match under {
-        Under::Ceilings {
-            ceilings_mm,
+        Under::Across {
+            held,
+            at,
             margin_mm,
         } => {
-            let ceiling = |&mm: &f64| Ceiling {
-                mm: Some(mm),
-                height: (mm - margin_mm) * 1e-3,
+            let point = |&at: &f64| Point {
+                at: Some(at),
+                height: match held {
+                    Quantity::Ceiling => (at - margin_mm) * 1e-3,
+                    _ => f64::INFINITY,
+                },
             };
-            ceilings_mm.iter().map(ceiling).collect()
+            at.iter().map(point).collect()
         }
-        Under::One { rules, .. } => vec![Ceiling {
-            mm: rules.ceiling_mm,
+        Under::One { rules, .. } => vec![Point {
+            at: rules.ceiling_mm,
             height: rules.ceiling_mm.map_or(f64::INFINITY, |mm| mm * 1e-3),
         }],
+    }
+}
+
+/// Rules with a quantity held at a value, in its unit; a ceiling is the height of the rules already.
+/// Where the speed is held, a cycle may be as short as it likes.
+fn held_rules(held: Quantity, at: Option<f64>, rules: CycleRules) -> CycleRules {
+    let Some(at) = at else {
+        return rules;
+    };
+    match held {
+        Quantity::Ceiling => rules,
+        Quantity::Advance => CycleRules {
+            advance: at * 1e-3,
+            ..rules
+        },
+        Quantity::Speed => CycleRules {
+            least_speed: at * 1e-3,
+            advance: CycleRules::FREE.advance,
+            ..rules
+        },
+        Quantity::Heat => CycleRules { heat: at, ..rules },
+        Quantity::Duty => CycleRules {
+            most_duty: at,
+            ..rules
+        },
     }
 }
 
 /// What can be said of a search before anything is crawled.
 fn check(
     experiment: &CycleSearchExperiment,
-    ceilings: &[Ceiling],
+    points: &[Point],
     robot: &Robot,
 ) -> Result<(), CycleSearchError> {
     experiment.runs.check()?;
+    if let Some(seconds) = experiment.time_budget_s {
+        let bounds = (0.0, PullSearchExperiment::LONGEST_S);
+        Limit::check("a time budget", " s", seconds, bounds)?;
+    }
     match &experiment.under {
-        Under::Ceilings {
-            ceilings_mm,
+        Under::Across {
+            held,
+            at,
             margin_mm,
         } => {
-            for (index, mm) in ceilings_mm.iter().enumerate() {
-                let same = |other: &f64| other.total_cmp(mm).is_eq();
-                if ceilings_mm[..index].iter().any(same) {
-                    return Err(CycleSearchError::CeilingTwice { mm: *mm });
+            let held = *held;
+            if Quantity::of_objective(experiment.objective) == Some(held) {
+                return Err(CycleSearchError::Same { quantity: held });
+            }
+            for (index, &value) in at.iter().enumerate() {
+                let same = |other: &f64| other.total_cmp(&value).is_eq();
+                if at[..index].iter().any(same) {
+                    return Err(CycleSearchError::Twice { held, value });
                 }
-                check_heights(*mm, *margin_mm)?;
-                NoRoom::check(*mm, *margin_mm)?;
+                if held == Quantity::Ceiling {
+                    check_heights(value, *margin_mm)?;
+                    NoRoom::check(value, *margin_mm)?;
+                } else {
+                    Limit::check(held.held_axis(), "", value, held.bounds())?;
+                }
             }
         }
         Under::One {
@@ -245,25 +360,12 @@ fn check(
             name,
         } => {
             name.as_deref().map_or(Ok(()), plain_name::check_gait)?;
-            rules.check()?;
-            let objective = experiment.objective;
-            let several = matches!(
-                objective,
-                CycleObjective::Heat | CycleObjective::HeatRate | CycleObjective::Peak
-            );
-            let heats = [
-                ("worst_over", worst_over.is_some()),
-                ("most_heat", rules.most_heat.is_some()),
-            ];
-            let unused = heats.iter().find(|(_, asked)| *asked && !several);
-            if let Some((what, _)) = unused {
-                return Err(CycleSearchError::HeatUnused { what });
-            }
+            check_one(experiment.objective, rules, worst_over.as_ref())?;
         }
     }
-    for ceiling in ceilings {
-        let reason = ceiling.mm.and_then(|mm| too_low(robot, mm * 1e-3));
-        if let (Some(ceiling_mm), Some(reason)) = (ceiling.mm, reason) {
+    for point in points {
+        let reason = point.at.and_then(|mm| too_low(robot, mm * 1e-3));
+        if let (Some(ceiling_mm), Some(reason)) = (point.at, reason) {
             return Err(CycleSearchError::TooLow {
                 ceiling_mm,
                 robot: robot.name.clone(),
@@ -274,7 +376,38 @@ fn check(
     Ok(())
 }
 
-fn merge(worst_over: Option<&NamedGait>, searched: &[Setting]) -> Result<Merge, CycleSearchError> {
+/// Checks rules that were asked for: each is one, and counts.
+pub fn check_one(
+    objective: CycleObjective,
+    rules: &CycleRulesChoice,
+    worst_over: Option<&NamedGait>,
+) -> Result<(), CycleSearchError> {
+    rules.check()?;
+    let several = matches!(objective, CycleObjective::Heat | CycleObjective::Peak);
+    let heats = [
+        ("worst_over", worst_over.is_some()),
+        ("most_heat", rules.most_heat.is_some()),
+    ];
+    let unused = heats.iter().find(|(_, asked)| *asked && !several);
+    if let Some((what, _)) = unused {
+        return Err(CycleSearchError::HeatUnused { what });
+    }
+    let unread = objective == CycleObjective::Peak && rules.most_heat.is_none();
+    if worst_over.is_some() && unread {
+        return Err(CycleSearchError::WorstOverUnused);
+    }
+    Ok(())
+}
+
+/// How the heats of several settings become one: the worst over those of another cycle, where one is
+/// named.
+///
+/// # Errors
+/// [`CycleSearchError`] where that cycle cannot be read or crawled.
+pub fn merge(
+    worst_over: Option<&NamedGait>,
+    searched: &[Setting],
+) -> Result<Merge, CycleSearchError> {
     let Some(named) = worst_over else {
         return Ok(Merge::Mean);
     };
@@ -286,7 +419,7 @@ fn merge(worst_over: Option<&NamedGait>, searched: &[Setting]) -> Result<Merge, 
 }
 
 /// The rules that were asked for, and the usual ones where none was.
-fn asked_rules(asked: &CycleRulesChoice, usual: CycleRules) -> CycleRules {
+pub fn asked_rules(asked: &CycleRulesChoice, usual: CycleRules) -> CycleRules {
     let millimetres = asked.least_advance_mm.map(|mm| mm * 1e-3);
     let share = asked.body_share_percent.map(|percent| percent / 100.0);
     let demanded = asked.demanded_shoulder_nm;
@@ -297,22 +430,28 @@ fn asked_rules(asked: &CycleRulesChoice, usual: CycleRules) -> CycleRules {
         heat: asked.most_heat.unwrap_or(usual.heat),
         drift: asked.most_drift_mm.map_or(usual.drift, |mm| mm * 1e-3),
         head: asked.most_head_n.unwrap_or(usual.head),
-        duty: match asked.duty {
-            None => usual.duty,
-            Some(LeastDuty::Continuous) => Duty::Continuous,
-            Some(LeastDuty::Limited) => Duty::Limited,
+        verdict: match asked.verdict {
+            None => usual.verdict,
+            Some(LeastVerdict::Continuous) => Duty::Continuous,
+            Some(LeastVerdict::Limited) => Duty::Limited,
         },
+        least_speed: asked
+            .least_speed_mm_s
+            .map_or(usual.least_speed, |it| it * 1e-3),
+        most_duty: asked.most_duty.unwrap_or(usual.most_duty),
         ..usual
     }
 }
 
 fn under_plan(experiment: &CycleSearchExperiment, job: Option<&Job<CycleSearch>>) -> UnderPlan {
     match &experiment.under {
-        Under::Ceilings {
-            ceilings_mm,
+        Under::Across {
+            held,
+            at,
             margin_mm,
         } => UnderPlan::Frontier {
-            ceilings_mm: ceilings_mm.clone(),
+            held: *held,
+            at: at.clone(),
             margin_mm: *margin_mm,
             from: experiment.from.iter().map(|it| it.called.clone()).collect(),
         },
@@ -336,8 +475,9 @@ fn under_plan(experiment: &CycleSearchExperiment, job: Option<&Job<CycleSearch>>
     }
 }
 
-/// The usual rules of a search below a height, m: for heat and peak the robot's least advance, else
-/// no slower than the cycle that it is searched about.
+/// The usual rules of a search below a height, m: for all but advance and speed the robot's least
+/// advance; for advance, speed and duty a cycle no longer than the one that it is searched about, as
+/// whoever takes more time advances farther, and with less torque.
 pub fn usual_rules(
     objective: CycleObjective,
     height: f64,
@@ -349,8 +489,16 @@ pub fn usual_rules(
         ..CycleRules::FREE
     };
     match objective {
-        CycleObjective::Heat | CycleObjective::HeatRate | CycleObjective::Peak => CycleRules {
+        CycleObjective::Heat
+        | CycleObjective::HeatRate
+        | CycleObjective::Peak
+        | CycleObjective::Height => CycleRules {
             advance: robot.search.least_advance,
+            ..free
+        },
+        CycleObjective::Duty => CycleRules {
+            advance: robot.search.least_advance,
+            seconds: base.duration(TimeScale::ONE),
             ..free
         },
         CycleObjective::Advance | CycleObjective::Speed => CycleRules {

@@ -3,9 +3,9 @@
 //! With a value v and its limit, a rule is broken by
 //!
 //! ```text
-//! max(v / largest − 1, 0)    height, duration, demanded torque, heat, drift off the line,
-//!                            each measure of the motors against the bound of a duty           (1)
-//! max(1 − v / least, 0)      advance, turn                                                    (2)
+//! max(v / largest − 1, 0)    height, duration, demanded torque, heat, duty, drift off the line,
+//!                            each measure of the motors against the bound of a verdict        (1)
+//! max(1 − v / least, 0)      advance, speed, turn                                             (2)
 //! max(v − largest, 0)        share of the weight on trunk, head and legs, and on the head     (3)
 //! ```
 //!
@@ -53,7 +53,11 @@ pub struct CycleRules {
     pub drift: f64,
     /// Least of what the motors of a robot could do in the first setting ([`Duty::NotOnARobot`] asks
     /// for nothing).
-    pub duty: Duty,
+    pub verdict: Duty,
+    /// Least speed where values count, m/s.
+    pub least_speed: f64,
+    /// Largest duty, RMS over nominal torque, with the robot's own servos where values count.
+    pub most_duty: f64,
 }
 
 impl CycleRules {
@@ -67,7 +71,9 @@ impl CycleRules {
         head: HEAD_CARRIES,
         heat: f64::INFINITY,
         drift: f64::INFINITY,
-        duty: Duty::NotOnARobot,
+        verdict: Duty::NotOnARobot,
+        least_speed: 0.0,
+        most_duty: f64::INFINITY,
     };
 
     /// What a cycle of a duration, s, breaks.
@@ -113,10 +119,17 @@ impl CycleRules {
             let excess = number(trial.body_share - self.body_share).max(0.0);
             broken.push(("body-share", excess));
         }
-        if role == Role::Value && servo == Servo::DcMotor(MotorServo::ROBOT) {
-            broken.push(("duty", beyond(self.duty, trial)));
+        let own = servo == Servo::DcMotor(MotorServo::ROBOT);
+        if own && role == Role::Value {
+            broken.push(("verdict", beyond(self.verdict, trial)));
         }
-        if servo == Servo::DcMotor(MotorServo::ROBOT) {
+        if self.least_speed > 0.0 && role == Role::Value {
+            broken.push(("speed", below(trial.speed(), self.least_speed)));
+        }
+        if own && self.most_duty < f64::INFINITY && role == Role::Value {
+            broken.push(("duty", above(trial.duty.0, self.most_duty)));
+        }
+        if own {
             let excess = above(trial.demanded_shoulder, self.demanded_shoulder);
             broken.push(("demanded-shoulder", excess));
         }

@@ -1,9 +1,11 @@
-//! Searching whole cycles in the locomotion regime, under one ceiling or several.
+//! Searching whole cycles in the locomotion regime: under one ceiling or none, or at several values of a
+//! quantity that is held.
 
 use prone::gait::cycle::Cycle;
 use prone_files::cycle_file;
 use prone_record::experiment::{CycleSearchExperiment, TextError, Under};
-use prone_record::frontier::{self, Compared, CycleObjective, Found, Frontier};
+use prone_record::frontier::{self, Compared, CycleObjective, Found, Frontier, Quantity};
+use prone_record::measure::{Heats, Measure};
 use prone_record::output::Artefacts;
 use prone_record::program::Program;
 use prone_record::search::{Search, SearchEnd, SeededRun};
@@ -27,6 +29,8 @@ use crate::watch::Watch;
 pub struct CycleRun {
     plan: SearchPlan,
     objective: CycleObjective,
+    heats: Heats,
+    held: Quantity,
     margin_mm: f64,
     jobs: Vec<Job<CycleSearch>>,
     confirmation: Vec<Setting>,
@@ -56,7 +60,7 @@ impl CycleRun {
         let compared = compared.map(|it| it.parse(cycle_file::parse));
         let jobs = cycle_jobs::jobs(experiment, robot, watch)?;
         let (margin_mm, name) = match &experiment.under {
-            Under::Ceilings { margin_mm, .. } => (*margin_mm, None),
+            Under::Across { margin_mm, .. } => (*margin_mm, None),
             Under::One { name, .. } => {
                 let usual = || format!("best-{}", objective.name());
                 (0.0, Some(name.clone().unwrap_or_else(usual)))
@@ -66,6 +70,8 @@ impl CycleRun {
         Ok(Self {
             plan: SearchPlan::Cycle(Box::new(plan)),
             objective,
+            heats: cycle_jobs::heats(&experiment.under),
+            held: cycle_jobs::held(&experiment.under),
             margin_mm,
             jobs: jobs.into_iter().map(|(job, _)| job).collect(),
             confirmation,
@@ -86,9 +92,9 @@ impl CycleRun {
         };
         let mut cycle = job.candidates.gait(&best.point)?;
         let cost = job.candidates.cost(&cycle, Depth::Everything);
-        let stem = match (&self.name, job.ceiling_mm) {
+        let stem = match (&self.name, job.at) {
             (Some(name), _) => name.clone(),
-            (None, Some(mm)) => format!("under-{}", mm.to_string().replace('.', "-")),
+            (None, Some(at)) => self.held.stem(at),
             (None, None) => "open".to_owned(),
         };
         cycle.name = format!("{stem}-seed-{}", run.seed);
@@ -100,8 +106,8 @@ impl CycleRun {
             cycle.steering = None;
         }
         let under = job
-            .ceiling_mm
-            .map_or_else(String::new, |mm| format!(" under {mm} mm"));
+            .at
+            .map_or_else(String::new, |at| format!(" {}", self.held.held_at(at)));
         cycle.description = format!(
             "searched{under} about {} for {}, seed {}, {} evaluations",
             job.base,
@@ -109,12 +115,14 @@ impl CycleRun {
             run.seed,
             run.evaluations()
         );
+        let value = Some(cost.value).filter(|value| value.is_finite());
         let found = Found {
-            ceiling_mm: job.ceiling_mm,
+            at: job.at,
             seed: run.seed,
             evaluations: run.evaluations(),
             gait: cycle.name.clone(),
-            value: Some(cost.value).filter(|value| value.is_finite()),
+            value,
+            reached: value.map(|value| self.measure().read(value)),
             violation: cost.violation,
             broken: cost.broken,
             refused: cost.refusal.as_ref().map(ToString::to_string),
@@ -145,23 +153,20 @@ impl CycleRun {
     ) -> Result<Artefacts, SearchError> {
         let mut artefacts = Artefacts::new();
         artefacts.insert("frontier.csv".into(), frontier::csv(frontier)?);
-        let ceilings: Vec<Option<f64>> = self.jobs.iter().map(|job| job.ceiling_mm).collect();
-        let history = frontier::history_csv(&ceilings, searches)?;
+        let values: Vec<Option<f64>> = self.jobs.iter().map(|job| job.at).collect();
+        let held = (self.held, values.as_slice());
+        let history = frontier::history_csv(held, self.measure(), searches)?;
         artefacts.insert("history.csv".into(), history);
         for ((cycle, _), found) in cycles.iter().zip(&frontier.found) {
             let text = cycle_file::write(cycle, &self.header(cycle, found));
             artefacts.insert(format!("gaits/{}.toml", cycle.name), text.into_bytes());
         }
-        let found = cycles.iter().zip(&frontier.found);
-        let order = |found: &Found| {
-            let value = found.value.unwrap_or(f64::INFINITY);
-            (found.violation, value)
-        };
-        let best = found.min_by(|(_, a), (_, b)| {
-            let (a, b) = (order(a), order(b));
-            a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
+        let best = frontier.best().and_then(|best| {
+            let mut all = cycles.iter();
+            let own = all.find(|(cycle, _)| cycle.name == best.gait);
+            own.map(|(cycle, _)| (cycle, best))
         });
-        if let (Some(name), Some(((cycle, _), found))) = (&self.name, best) {
+        if let (Some(name), Some((cycle, found))) = (&self.name, best) {
             let mut cycle = cycle.clone();
             cycle.name.clone_from(name);
             let text = cycle_file::write(&cycle, &self.header(&cycle, found));
@@ -179,6 +184,10 @@ impl SearchRun for CycleRun {
         &self.plan
     }
 
+    fn measure(&self) -> Measure {
+        Measure::of_cycles(self.objective, self.heats)
+    }
+
     fn jobs(&self) -> &[Job<CycleSearch>] {
         &self.jobs
     }
@@ -186,14 +195,15 @@ impl SearchRun for CycleRun {
     fn conclude(
         &self,
         searches: &[Search],
-        _: SearchEnd,
+        end: SearchEnd,
         watch: &dyn Watch,
     ) -> Result<(SearchResult, Artefacts), SearchError> {
         let mut found = Vec::new();
         let mut cycles = Vec::new();
         for (job, search) in self.jobs.iter().zip(searches) {
+            let ceiling_mm = job.at.filter(|_| self.held == Quantity::Ceiling);
             let bounds = Bounds {
-                ceiling: job.ceiling_mm.map_or(f64::INFINITY, |mm| mm * 1e-3),
+                ceiling: ceiling_mm.map_or(f64::INFINITY, |mm| mm * 1e-3),
                 head: job.candidates.rules().head,
             };
             for run in search.runs() {
@@ -228,7 +238,11 @@ impl SearchRun for CycleRun {
         });
         let frontier = Frontier {
             objective: self.objective,
+            unit: self.measure().unit.to_owned(),
+            heats: self.heats,
+            held: self.held,
             margin_mm: self.margin_mm,
+            complete: end == SearchEnd::Finished,
             compared: compared.collect(),
             found,
         };

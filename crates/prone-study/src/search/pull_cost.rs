@@ -250,14 +250,15 @@ impl Candidates for PullSearch {
         self.costs.cost(gait, depth)
     }
 
-    fn score(&self, point: &[f64]) -> Result<Score, Failure> {
+    fn score(&self, point: &[f64]) -> Result<(Score, Vec<Broken>), Failure> {
         match &self.costs.method {
             // Its rules are searched with a margin.
-            Method::Published { problem, .. } => problem.evaluate(point),
+            Method::Published { problem, .. } => Ok((problem.evaluate(point)?, Vec::new())),
             Method::Graded { .. } => {
                 let gait = self.form.gait(point);
                 let gait = gait.map_err(|error| Failure::from_error(&error))?;
-                Ok(self.cost(&gait, Depth::UntilBroken).score())
+                let cost = self.cost(&gait, Depth::UntilBroken);
+                Ok((cost.score(), cost.broken))
             }
         }
     }

@@ -11,6 +11,7 @@ use prone_record::experiment::{Ends, GaitForm, Limit, PullSearchExperiment};
 use prone_record::gait_search::{
     self, Compared, Confirmation, Outcome, PullCost, Refusal, RunOutcome, Verdict,
 };
+use prone_record::measure::Measure;
 use prone_record::output::Artefacts;
 use prone_record::program::Program;
 use prone_record::search::{Search, SearchEnd, SeededRun};
@@ -112,7 +113,7 @@ impl PullRun {
             plan,
             confirmation: confirmation.collect(),
             jobs: vec![Job {
-                ceiling_mm: None,
+                at: None,
                 base: base.name.clone(),
                 candidates: PullSearch { costs, form },
             }],
@@ -278,6 +279,11 @@ impl SearchRun for PullRun {
 
     fn plan(&self) -> &SearchPlan {
         &self.plan
+    }
+
+    fn measure(&self) -> Measure {
+        let terms = self.jobs.first().map(|job| job.candidates.costs.terms());
+        Measure::of_pulls(terms.map_or("", |terms| terms.aim.objective().unit()))
     }
 
     fn jobs(&self) -> &[Job<PullSearch>] {

@@ -7,8 +7,9 @@ use std::time::{Duration, Instant};
 use prone::cost::CostError;
 use prone::cost::objective::NoMotor;
 use prone_optim::Threads;
+use prone_record::measure::Measure;
 use prone_record::output::Artefacts;
-use prone_record::resumption::{ResumptionError, Snapshot};
+use prone_record::resumption::{self, ResumptionError, STATE_FILE, Snapshot, Work};
 use prone_record::search::{Search, SearchEnd};
 use prone_record::search_plan::SearchPlan;
 use prone_record::search_result::SearchResult;
@@ -23,8 +24,8 @@ use crate::watch::{Progress, Watch};
 /// One box of gaits to search.
 #[derive(Debug)]
 pub struct Job<C> {
-    /// The ceiling, mm, where there is one.
-    pub ceiling_mm: Option<f64>,
+    /// Where a quantity is held, in its unit, where one is.
+    pub at: Option<f64>,
     /// Name of the gait that is searched about.
     pub base: String,
     /// What is searched.
@@ -38,6 +39,9 @@ pub trait SearchRun: Send + Sync + 'static {
 
     /// What was asked for: `run.json`.
     fn plan(&self) -> &SearchPlan;
+
+    /// How the values of its searches are read.
+    fn measure(&self) -> Measure;
 
     /// Boxes, searched one after the other.
     fn jobs(&self) -> &[Job<Self::Candidates>];
@@ -106,7 +110,8 @@ pub fn begin<R: SearchRun>(run: &R) -> Vec<Search> {
     run.jobs().iter().map(fresh).collect()
 }
 
-/// Goes on with searches on the current rayon pool, from wherever they are, to the result.
+/// Goes on with searches on the current rayon pool, from wherever they are, to the result. Of the time
+/// each search has an equal share of what those before it have left.
 ///
 /// # Errors
 /// [`SearchError`]; a search that was stopped is in its checkpoint, where there is one.
@@ -121,15 +126,17 @@ pub fn run<R: SearchRun>(
     let evaluations = |searches: &[Search]| searches.iter().map(Search::evaluations).sum::<u64>();
     let before = evaluations(searches);
     let mut end = SearchEnd::Finished;
-    for (index, job) in run.jobs().iter().enumerate().take(searches.len()) {
-        let out_of_time = || time.is_some_and(|time| started.elapsed() >= time);
+    for index in 0..run.jobs().len().min(searches.len()) {
+        let left = time.map(|time| time.saturating_sub(started.elapsed()));
+        let others = u32::try_from(searches.len() - index).unwrap_or(u32::MAX);
+        let share = left.map(|left| started.elapsed() + left / others);
+        let out_of_time = || share.is_some_and(|share| started.elapsed() >= share);
         let kept = checkpoint.as_deref_mut();
-        end = proceed(&job.candidates, searches, index, watch, &out_of_time, kept)?;
+        if proceed(run, searches, index, watch, &out_of_time, kept)? == SearchEnd::Interrupted {
+            end = SearchEnd::Interrupted;
+        }
         if watch.stop() {
             return Err(SearchError::Stopped);
-        }
-        if end == SearchEnd::Interrupted {
-            break;
         }
     }
     if searches.iter().all(|search| search.best().is_none()) {
@@ -151,6 +158,9 @@ pub fn run<R: SearchRun>(
     let plan = serde_json::to_value(run.plan())?;
     artefacts.insert("run.json".into(), pretty(&plan)?);
     artefacts.insert("result.json".into(), pretty(&result)?);
+    // From there a longer search goes on.
+    let state = resumption::text(Work::Search, &run.plan().without_budget(), &searches)?;
+    artefacts.insert(STATE_FILE.into(), state.into_bytes());
     Ok(Done {
         result,
         artefacts,
@@ -159,8 +169,8 @@ pub fn run<R: SearchRun>(
 }
 
 /// Goes on with one search, and leaves a checkpoint of all.
-fn proceed<C: Candidates>(
-    candidates: &C,
+fn proceed<R: SearchRun>(
+    run: &R,
     searches: &mut [Search],
     index: usize,
     watch: &dyn Watch,
@@ -171,14 +181,29 @@ fn proceed<C: Candidates>(
     let Some((search, after)) = rest.split_first_mut() else {
         return Ok(SearchEnd::Finished);
     };
-    watch.progress(&Progress::Searching(search));
+    let Some(job) = run.jobs().get(index) else {
+        return Ok(SearchEnd::Finished);
+    };
+    let measure = run.measure();
+    watch.progress(&Progress::Searching {
+        search,
+        measure,
+        broken: &[],
+    });
+    let scorer = Threads(Searched::new(&job.candidates));
     let all = |search: &Search| -> Vec<Search> {
         let around = before.iter().chain([search]).chain(after.iter());
         around.cloned().collect()
     };
     let mut kept = Ok(());
-    let end = search.proceed(&Threads(Searched(candidates)), |search| {
-        watch.progress(&Progress::Searching(search));
+    let end = search.proceed(&scorer, |search| {
+        let best = search.best();
+        let broken = best.map_or_else(Vec::new, |(_, it)| scorer.0.broken_by(&it.score));
+        watch.progress(&Progress::Searching {
+            search,
+            measure,
+            broken: &broken,
+        });
         // A budget too small for one generation leaves nothing to keep.
         if let (Some(checkpoint), true) = (&mut checkpoint, search.best().is_some()) {
             kept = checkpoint.keep(&all(search));

@@ -123,9 +123,11 @@ pub fn for_search(
 ) -> Result<Vec<Setting>, SettingError> {
     match objective {
         CycleObjective::Heat | CycleObjective::Peak => for_heat(robot),
-        CycleObjective::HeatRate | CycleObjective::Advance | CycleObjective::Speed => {
-            for_advance(robot)
-        }
+        CycleObjective::HeatRate
+        | CycleObjective::Advance
+        | CycleObjective::Speed
+        | CycleObjective::Duty
+        | CycleObjective::Height => for_advance(robot),
     }
 }
 
@@ -206,6 +208,12 @@ pub fn for_heat(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
     )
 }
 
+/// What a search of something else adds where heat is held: stiff servos, so that heat is the same as
+/// where it is searched.
+pub fn for_held_heat(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
+    compiled(robot, [stiff(2, Role::Value)])
+}
+
 /// For the confirmation of what such a search found: one thing changed at a time, three cycles each.
 /// Stiff and soft servos stand beside it: no search of the advance looks at them. Heat and peak are
 /// confirmed at other durations of the pull too.
@@ -242,7 +250,11 @@ pub fn for_confirmation(
     )?;
     let pulls: &[f64] = match objective {
         CycleObjective::Heat | CycleObjective::Peak => &[1.0, 2.0, 3.0],
-        CycleObjective::HeatRate | CycleObjective::Advance | CycleObjective::Speed => &[],
+        CycleObjective::HeatRate
+        | CycleObjective::Advance
+        | CycleObjective::Speed
+        | CycleObjective::Duty
+        | CycleObjective::Height => &[],
     };
     settings.extend(corners);
     for &seconds in pulls {

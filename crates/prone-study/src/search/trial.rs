@@ -2,7 +2,7 @@
 
 use prone::crawl::{Pilot, Straight};
 use prone::gait::cycle::Cycle;
-use prone::motor::{Load, Verdict};
+use prone::motor::{Effort, Load, Verdict};
 use prone::robot::BodyPart;
 use prone::statics::GRAVITY;
 use prone::steering::HeadingHold;
@@ -24,6 +24,9 @@ pub struct Trial {
     pub top: (f64, BodyPart),
     /// ∫ Σ (τ / nominal torque)² dt per metre, s/m; NaN where a motor is not known.
     pub heat_per_metre: f64,
+    /// Duty: √(∫ τ² dt / time) over what the gear passes on of the nominal torque, and the joint that
+    /// the motor is named after, of the motor with the largest; NaN where a motor is not known.
+    pub duty: (f64, String),
     /// Largest torque over the effort limit, and whose.
     pub peak_over_limit: (f64, String),
     /// Largest torque that the position error of a shoulder's pitch asks for before any limit, N·m.
@@ -96,6 +99,7 @@ fn measured(setting: &Setting, crawl: &Crawl) -> Trial {
         seconds: last.seconds,
         top: (crawl.tops.highest(), crawl.tops.part()),
         heat_per_metre: per_metre(last.effort.heat(robot).unwrap_or(f64::NAN), advance.forward),
+        duty: duty(setting, &last.effort),
         peak_over_limit: last.effort.peak_over_limit(robot),
         demanded_shoulder: setting.world.demanded_of_shoulders(&last.effort),
         head: crawl.ground.head_peak(),
@@ -124,6 +128,20 @@ fn drift(crawl: &Crawl) -> f64 {
     ends.fold(0.0, f64::max)
 }
 
+/// The motor with the largest duty.
+fn duty(setting: &Setting, effort: &Effort) -> (f64, String) {
+    let robot = setting.world.robot();
+    let efficiency = setting.world.gear_efficiency();
+    let motors = effort.by_drive(robot).into_iter().map(|(drive, motor)| {
+        let used = motor.motor_use(robot, &drive, effort.seconds, efficiency);
+        let duty = used.map_or(f64::NAN, |used| used.rms_over_nominal);
+        (duty, drive.named_after(robot).name.clone())
+    });
+    // NaN of either sign is above all numbers.
+    let worst = motors.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
+    worst.unwrap_or((f64::NAN, String::new()))
+}
+
 fn weight(setting: &Setting) -> f64 {
     setting.world.mass() * GRAVITY
 }
@@ -145,6 +163,7 @@ fn nothing(setting: &Setting, crawl: &Crawl) -> Trial {
         seconds: 0.0,
         top: (f64::INFINITY, crawl.tops.part()),
         heat_per_metre: f64::INFINITY,
+        duty: (f64::INFINITY, String::new()),
         peak_over_limit: (0.0, String::new()),
         demanded_shoulder: 0.0,
         head: 0.0,

@@ -46,6 +46,14 @@ pub enum CrawlSetupError {
         /// What was asked for, s.
         seconds: f64,
     },
+    /// A rest that is none, as commands come less often.
+    #[error("a rest of {seconds} s is shorter than a command step of {step} s, and would be none")]
+    ShortRest {
+        /// What was asked for, s.
+        seconds: f64,
+        /// Time between two commands, s.
+        step: f64,
+    },
     /// Efficiency was asked of gears whose motors are not known: it would change nothing.
     #[error("a gear efficiency changes nothing: {source}")]
     NoGears {

@@ -14,6 +14,7 @@ fn warm(heat_per_metre: f64) -> Trial {
         seconds: 2.0,
         top: (0.2, BodyPart::Head),
         heat_per_metre,
+        duty: (0.5, String::new()),
         peak_over_limit: (1.0, String::new()),
         demanded_shoulder: heat_per_metre,
         head: 0.0,
@@ -323,4 +324,23 @@ fn an_objective_is_written_and_read_under_its_name() {
         assert_eq!(read, objective);
     }
     assert!(serde_json::from_str::<CycleObjective>("\"torque\"").is_err());
+}
+
+/// Of all motors' heats, the worst motor's is no more than all of them and no less than their mean.
+#[test]
+fn identity_the_duty_of_the_worst_motor_is_within_what_all_heats_allow() {
+    let robot = nao();
+    let setting = &settings::for_heat(&robot).unwrap()[0];
+    let trial = try_out(setting, &cycle("low-175")).unwrap();
+    let robot = robot.robot();
+    let heat = trial.heat_per_metre * trial.advance;
+    // RMS over what the gears pass on, of one motor that had all the heat.
+    let alone = (heat / trial.seconds).sqrt() / robot.control.gear_efficiency;
+    let evenly = alone / (robot.drives().len() as f64).sqrt();
+    let (duty, joint) = &trial.duty;
+    assert!(
+        (evenly..alone).contains(duty),
+        "{joint} {duty}, {evenly}..{alone}"
+    );
+    assert!(robot.joints.iter().any(|it| it.name == *joint));
 }

@@ -12,6 +12,8 @@ const RULES: CycleRules = CycleRules {
     demanded_shoulder: 2.0,
     head: 1.5,
     heat: 50.0,
+    least_speed: 0.0,
+    most_duty: 0.8,
 };
 
 /// The robot's own servos.
@@ -34,6 +36,7 @@ fn on_the_limit() -> Trial {
         seconds: 4.0,
         top: (RULES.ceiling, BodyPart::Head),
         heat_per_metre: RULES.heat,
+        duty: (RULES.most_duty, String::new()),
         peak_over_limit: (1.0, String::new()),
         demanded_shoulder: RULES.demanded_shoulder,
         head: RULES.head,
@@ -207,6 +210,47 @@ fn a_shoulders_own_servo_may_not_demand_more() {
         demanded(Servo::DcMotor(MotorServo::STIFF))(10.0 * limit),
         0.0,
     );
+}
+
+#[test]
+fn a_motor_may_not_work_more_where_values_count() {
+    let loaded = |role: Role, servo: Servo| {
+        move |duty: f64| {
+            let trial = Trial {
+                duty: (duty, String::new()),
+                advance: FIRST,
+                ..on_the_limit()
+            };
+            in_all(&RULES.broken_by_trial(role, servo, &trial, FIRST))
+        }
+    };
+    let limit = RULES.most_duty;
+    holds(limit, Side::Below, 0.1, loaded(Role::Value, OWN));
+    near(loaded(Role::Keep(0.5), OWN)(2.0 * limit), 0.0);
+    let stiff = Servo::DcMotor(MotorServo::STIFF);
+    near(loaded(Role::Value, stiff)(2.0 * limit), 0.0);
+}
+
+#[test]
+fn a_cycle_may_not_be_slower_where_values_count() {
+    let rules = CycleRules {
+        least_speed: 0.03,
+        ..RULES
+    };
+    let timed = |role: Role| {
+        move |speed: f64| {
+            let trial = Trial {
+                advance: FIRST,
+                seconds: FIRST / speed,
+                ..on_the_limit()
+            };
+            in_all(&rules.broken_by_trial(role, OWN, &trial, FIRST))
+        }
+    };
+    near(timed(Role::Value)(1.01 * rules.least_speed), 0.0);
+    near(timed(Role::Value)(0.9 * rules.least_speed), 0.1);
+    near(timed(Role::Value)(f64::NAN), UNTRIED);
+    near(timed(Role::Keep(0.5))(0.1 * rules.least_speed), 0.0);
 }
 
 #[test]

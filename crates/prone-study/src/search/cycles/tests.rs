@@ -82,7 +82,9 @@ fn a_steerable_search_finds_what_turns_to_the_left() {
     let best = |base: &Cycle| {
         let searched = CycleSearch::new(robot.robot(), &settings, aim.clone(), base).unwrap();
         let mut search = Search::new(Solver::AboutTheMiddle, 1, 1, 16);
-        search.proceed(&Threads(Searched(&searched)), |_| ControlFlow::Continue(()));
+        search.proceed(&Threads(Searched::new(&searched)), |_| {
+            ControlFlow::Continue(())
+        });
         let (_, best) = search.best().unwrap();
         let cycle = searched.gait(&best.point).unwrap();
         let cost = searched.cost(&cycle, Depth::Everything);

@@ -7,6 +7,7 @@ use prone::gait::cycle::Cycle;
 use prone_optim::Threads;
 use prone_record::experiment::PassageSearch;
 use prone_record::frontier::CycleObjective;
+use prone_record::measure::{Heats, Measure};
 use prone_record::search::{Search, SearchEnd, Solver};
 use prone_sim::LoadedRobot;
 
@@ -59,8 +60,16 @@ pub fn search(
     watch: &dyn Watch,
 ) -> Result<Option<Cycle>, SearchError> {
     let mut search = Search::new(Solver::AboutTheMiddle, asked.seed, 1, asked.budget);
-    let end = search.proceed(&Threads(Searched(searched)), |search| {
-        watch.progress(&Progress::Searching(search));
+    let measure = Measure::of_cycles(CycleObjective::Advance, Heats::PerMetre);
+    let scorer = Threads(Searched::new(searched));
+    let end = search.proceed(&scorer, |search| {
+        let best = search.best();
+        let broken = best.map_or_else(Vec::new, |(_, it)| scorer.0.broken_by(&it.score));
+        watch.progress(&Progress::Searching {
+            search,
+            measure,
+            broken: &broken,
+        });
         if watch.stop() {
             ControlFlow::Break(())
         } else {

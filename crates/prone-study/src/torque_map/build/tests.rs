@@ -42,7 +42,7 @@ impl Watch for Counting {
             Progress::Done(rows) => {
                 self.done.fetch_add(rows, Ordering::SeqCst);
             }
-            Progress::Simulating(_) | Progress::Searching(_) | Progress::Found(..) => {}
+            Progress::Simulating(_) | Progress::Searching { .. } | Progress::Found(..) => {}
         }
     }
 
