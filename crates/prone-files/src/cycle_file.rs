@@ -23,12 +23,14 @@
 //! easing = "smoothstep"    # or "linear"
 //! joints_deg = { LHipPitch = -25, LKneePitch = 50 }
 //! turn = { LHipRoll = 0.2 } # what a turn command adds, times this
+//! shift = { LShoulderPitch = -0.2 } # and what a shift command adds
 //!
 //! [approach]               # from the last waypoint to the pull's first posture
 //! time_s = 0.5
 //!
 //! [steering]
 //! limit_deg = 12
+//! shift_limit_deg = 12     # where waypoints have a shift
 //! dead_band_deg = 1        # what of a command friction swallows at the waypoints
 //! spread = 1.0             # in the pull
 //! joints = { LHipRoll = -1, RHipRoll = -1 }
@@ -91,10 +93,11 @@ pub fn parse(file: &str, text: &str) -> Result<Cycle, FileError> {
     let waypoints = waypoints.into_iter().enumerate();
     let waypoints = waypoints.map(|(index, waypoint)| source.waypoint(index, waypoint));
     let waypoints: Vec<Waypoint> = waypoints.collect::<Result<_, _>>()?;
-    let turned = waypoints.iter().find(|it| !it.turn.is_empty());
+    let steered = |it: &&Waypoint| !it.turn.is_empty() || !it.shift.is_empty();
+    let turned = waypoints.iter().find(steered);
     if let (Some(waypoint), None) = (turned, &table.steering) {
         let message = format!(
-            "waypoint {} has a turn; [steering] with its limit_deg is missing",
+            "waypoint {} is steered; [steering] with its limit_deg is missing",
             waypoint.name
         );
         return Err(source.error(table.name.span(), message));
@@ -190,6 +193,9 @@ pub fn write(cycle: &Cycle, header: &str) -> String {
         if !waypoint.turn.is_empty() {
             let _ = writeln!(text, "turn = {}", inline(&waypoint.turn));
         }
+        if !waypoint.shift.is_empty() {
+            let _ = writeln!(text, "shift = {}", inline(&waypoint.shift));
+        }
     }
     if let Some(pull) = &cycle.pull {
         let Approach { seconds, easing } = pull.approach;
@@ -201,6 +207,9 @@ pub fn write(cycle: &Cycle, header: &str) -> String {
     }
     if let Some(steering) = &cycle.steering {
         let _ = write!(text, "\n[steering]\nlimit_rad = {:?}\n", steering.limit);
+        if steering.shift_limit > 0.0 {
+            let _ = writeln!(text, "shift_limit_rad = {:?}", steering.shift_limit);
+        }
         if steering.dead_band > 0.0 {
             let _ = writeln!(text, "dead_band_rad = {:?}", steering.dead_band);
         }
@@ -295,6 +304,8 @@ struct WaypointTable {
     joints_rad: BTreeMap<String, Spanned<f64>>,
     #[serde(default)]
     turn: BTreeMap<String, Spanned<f64>>,
+    #[serde(default)]
+    shift: BTreeMap<String, Spanned<f64>>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -310,6 +321,8 @@ struct ApproachTable {
 struct SteeringTable {
     limit_deg: Option<Spanned<f64>>,
     limit_rad: Option<Spanned<f64>>,
+    shift_limit_deg: Option<Spanned<f64>>,
+    shift_limit_rad: Option<Spanned<f64>>,
     dead_band_deg: Option<Spanned<f64>>,
     dead_band_rad: Option<Spanned<f64>>,
     spread: Option<Spanned<f64>>,
@@ -375,18 +388,26 @@ impl Source<'_> {
                 return Err(self.error(angle.span(), twice));
             }
         }
-        let mut turn = BTreeMap::new();
-        for (joint, factor) in table.turn {
-            let value = self.within(&factor, &joint, LARGEST_FACTOR)?;
-            turn.insert(joint, value);
-        }
         let name = table.name.map(Spanned::into_inner);
         Ok(Waypoint {
             name: name.unwrap_or_else(|| usual_name(index)),
             approach: self.approach(&table.time_s, table.easing)?,
             joints,
-            turn,
+            turn: self.factors(table.turn)?,
+            shift: self.factors(table.shift)?,
         })
+    }
+
+    /// Factors of a command, by joint.
+    fn factors(
+        self,
+        table: BTreeMap<String, Spanned<f64>>,
+    ) -> Result<BTreeMap<String, f64>, FileError> {
+        let factors = table.into_iter().map(|(joint, factor)| {
+            let value = self.within(&factor, &joint, LARGEST_FACTOR)?;
+            Ok((joint, value))
+        });
+        factors.collect()
     }
 
     fn approach(self, time: &Spanned<f64>, easing: Easing) -> Result<Approach, FileError> {
@@ -417,19 +438,8 @@ impl Source<'_> {
                 return Err(self.error(header..header, message));
             }
         };
-        let dead_band = match (&table.dead_band_deg, &table.dead_band_rad) {
-            (None, None) => 0.0,
-            (Some(degrees), None) => self
-                .not_negative(degrees, "dead_band_deg", LARGEST_TURN_DEG)?
-                .to_radians(),
-            (None, Some(radians)) => {
-                self.not_negative(radians, "dead_band_rad", LARGEST_TURN_DEG.to_radians())?
-            }
-            (Some(number), Some(_)) => {
-                let message = "[steering] has both dead_band_deg and dead_band_rad";
-                return Err(self.error(number.span(), message));
-            }
-        };
+        let dead_band =
+            self.degrees_or_radians((&table.dead_band_deg, &table.dead_band_rad), "dead_band")?;
         let in_pull = table
             .spread
             .as_ref()
@@ -439,19 +449,43 @@ impl Source<'_> {
                            `turn` of a waypoint acts there";
             return Err(self.error(number.span(), message));
         }
-        let mut joints = BTreeMap::new();
-        for (joint, factor) in table.joints {
-            let value = self.within(&factor, &joint, LARGEST_FACTOR)?;
-            joints.insert(joint, value);
-        }
+        let shift_limit = self.degrees_or_radians(
+            (&table.shift_limit_deg, &table.shift_limit_rad),
+            "shift_limit",
+        )?;
         let spread = table.spread.as_ref();
         let spread = spread.map(|it| self.within(it, "spread", LARGEST_FACTOR));
         Ok(Steering {
             limit,
             dead_band,
             spread: spread.transpose()?.unwrap_or_default(),
-            joints,
+            joints: self.factors(table.joints)?,
+            shift_limit,
         })
+    }
+
+    /// An angle that is given in degrees or in radians, or not at all, which is 0; rad.
+    fn degrees_or_radians(
+        self,
+        given: (&Option<Spanned<f64>>, &Option<Spanned<f64>>),
+        what: &str,
+    ) -> Result<f64, FileError> {
+        match given {
+            (None, None) => Ok(0.0),
+            (Some(degrees), None) => {
+                let degrees =
+                    self.not_negative(degrees, &format!("{what}_deg"), LARGEST_TURN_DEG)?;
+                Ok(degrees.to_radians())
+            }
+            (None, Some(radians)) => {
+                let largest = LARGEST_TURN_DEG.to_radians();
+                self.not_negative(radians, &format!("{what}_rad"), largest)
+            }
+            (Some(number), Some(_)) => {
+                let message = format!("[steering] has both {what}_deg and {what}_rad");
+                Err(self.error(number.span(), message))
+            }
+        }
     }
 
     fn not_negative(

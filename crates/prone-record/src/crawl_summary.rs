@@ -148,6 +148,9 @@ pub struct CycleSummary {
     pub cycle: usize,
     /// The turn command of its pull, degrees.
     pub turn_command_deg: f64,
+    /// The shift command of its waypoints, degrees.
+    #[serde(default)]
+    pub shift_command_deg: f64,
     /// When it began, s.
     pub begin_s: f64,
     /// How long it lasted, s.

@@ -24,10 +24,11 @@ type KnownFigure = (&'static str, fn(&CycleSummary) -> Option<f64>);
 type MotorFigure = (&'static str, fn(&MotorSummary) -> Option<f64>);
 
 /// Figures of a cycle before its highest points, with three decimals.
-const FIRST: [Figure; 8] = [
+const FIRST: [Figure; 9] = [
     ("begin_s", |cycle| cycle.begin_s),
     ("time_s", |cycle| cycle.time_s),
     ("turn_command_deg", |cycle| cycle.turn_command_deg),
+    ("shift_command_deg", |cycle| cycle.shift_command_deg),
     ("advance_mm", |cycle| cycle.advance_mm),
     ("left_mm", |cycle| cycle.left_mm),
     ("yaw_deg", |cycle| cycle.yaw_deg),

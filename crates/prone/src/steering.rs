@@ -10,12 +10,21 @@
 //! The offset is turned back into a heading towards the line (a), and what pushes the robot aside
 //! all the time, unequal friction or a joint that is off, is learnt by the sum (b), which stops
 //! growing while the command is at its limit.
+//!
+//! A cycle that can be shifted aside without being turned is held by two commands, each for its own
+//! error, with the sum of ψ and its gain c:
+//!
+//! ```text
+//! u = clip(−k (ψ + c Σ ψ), ±limit)                                    (2)
+//! v = clip(−(a y + b Σ y), ±shift limit)                              (3)
+//! ```
 
 use std::f64::consts::TAU;
 
 use glam::DVec3;
 
 use crate::frames::{Ground, Root, Transform};
+use crate::gait::cycle::{Steer, Steering};
 use crate::robot::SteeringGains;
 
 /// Where a robot is and where it heads, in the frame of the line that it is to follow.
@@ -51,7 +60,10 @@ pub struct HeadingHold {
     pub gains: SteeringGains,
     /// The largest |u|, rad.
     pub limit: f64,
+    /// The largest |v|, rad; 0 of a cycle that cannot be shifted.
+    pub shift_limit: f64,
     sum: f64,
+    yaw_sum: f64,
 }
 
 impl HeadingHold {
@@ -60,7 +72,47 @@ impl HeadingHold {
         Self {
             gains,
             limit,
+            shift_limit: 0.0,
             sum: 0.0,
+            yaw_sum: 0.0,
+        }
+    }
+
+    /// With a robot's gains and as far as a cycle can be steered.
+    pub const fn of(gains: SteeringGains, steering: &Steering) -> Self {
+        Self::new(gains, steering.limit).shifting(steering.shift_limit)
+    }
+
+    /// The same, shifting by at most `limit`, rad.
+    #[must_use]
+    pub const fn shifting(self, limit: f64) -> Self {
+        Self {
+            shift_limit: limit,
+            ..self
+        }
+    }
+
+    /// What the next cycle is steered by, rad: by equation (1), or (2) and (3) where it can be shifted.
+    pub fn steer(&mut self, bearing: Bearing) -> Steer {
+        if self.shift_limit == 0.0 {
+            return Steer {
+                turn: self.turn(bearing),
+                shift: 0.0,
+            };
+        }
+        let gains = self.gains;
+        let heading = shorter(bearing.yaw);
+        let turn = Held {
+            wanted: |sum: f64| -gains.yaw * (heading + gains.yaw_sum * sum),
+            limit: self.limit,
+        };
+        let shift = Held {
+            wanted: |sum: f64| -(gains.lateral * bearing.y + gains.lateral_sum * sum),
+            limit: self.shift_limit,
+        };
+        Steer {
+            turn: turn.command(&mut self.yaw_sum, heading),
+            shift: shift.command(&mut self.sum, bearing.y),
         }
     }
 
@@ -71,13 +123,31 @@ impl HeadingHold {
             yaw,
             lateral,
             lateral_sum,
+            yaw_sum: _,
         } = self.gains;
         let heading = shorter(bearing.yaw);
-        let error = |sum: f64| heading + lateral * bearing.y + lateral_sum * sum;
-        let sum = self.sum + bearing.y;
-        let wanted = -yaw * error(sum);
+        let held = Held {
+            wanted: |sum: f64| -yaw * (heading + lateral * bearing.y + lateral_sum * sum),
+            limit: self.limit,
+        };
+        held.command(&mut self.sum, bearing.y)
+    }
+}
+
+/// A command of an error and of its sum, which stops growing while the command is at its limit.
+struct Held<W> {
+    /// The command by the sum.
+    wanted: W,
+    /// Its largest amount.
+    limit: f64,
+}
+
+impl<W: Fn(f64) -> f64> Held<W> {
+    fn command(&self, sum: &mut f64, error: f64) -> f64 {
+        let next = *sum + error;
+        let wanted = (self.wanted)(next);
         if wanted.abs() < self.limit {
-            self.sum = sum;
+            *sum = next;
         }
         wanted.clamp(-self.limit, self.limit)
     }
@@ -115,7 +185,39 @@ mod tests {
         yaw: 0.9,
         lateral: 3.5,
         lateral_sum: 0.35,
+        yaw_sum: 0.2,
     };
+
+    #[test]
+    fn a_cycle_that_can_be_shifted_is_held_by_a_command_for_each_error() {
+        let steering = Steering {
+            limit: 0.2,
+            shift_limit: 0.1,
+            dead_band: 0.0,
+            spread: 0.0,
+            joints: std::collections::BTreeMap::new(),
+        };
+        let steer = |y, yaw| HeadingHold::of(GAINS, &steering).steer(Bearing { x: 0.0, y, yaw });
+        // Left of the line it moves to the right and does not turn; turned, it turns back.
+        assert!(steer(0.01, 0.0).shift < 0.0 && steer(0.01, 0.0).turn.abs() < 1e-15);
+        assert!(steer(0.0, 0.05).turn < 0.0 && steer(0.0, 0.05).shift.abs() < 1e-15);
+        assert!(
+            (steer(1.0, 0.0).shift + 0.1).abs() < f64::EPSILON,
+            "clipped"
+        );
+        let mut hold = HeadingHold::of(GAINS, &steering);
+        let aside = Bearing {
+            x: 0.0,
+            y: 0.005,
+            yaw: 0.01,
+        };
+        let first = hold.steer(aside);
+        let second = hold.steer(aside);
+        assert!(
+            second.turn < first.turn && second.shift < first.shift,
+            "learnt"
+        );
+    }
 
     #[test]
     fn a_heading_is_turned_to_the_shorter_way_and_no_faster_than_the_limit() {

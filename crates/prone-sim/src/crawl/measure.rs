@@ -48,6 +48,8 @@ pub struct CycleRow {
     pub gait: String,
     /// Turn command of its pull, rad.
     pub turn: f64,
+    /// Shift command, rad.
+    pub shift: f64,
     /// When its pull began, s.
     pub begin: f64,
     /// How long it lasted, s.
@@ -203,6 +205,7 @@ impl Meter {
         self.cycle = Some(CycleRow {
             gait: checked.name().to_owned(),
             turn: checked.turn(),
+            shift: checked.steer().shift,
             begin: simulation.time() - zero,
             seconds: 0.0,
             from,

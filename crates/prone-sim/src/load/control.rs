@@ -22,6 +22,7 @@ pub(super) fn read(lookup: &Lookup<'_>, table: &ControlTable) -> Result<Control,
             yaw: gain(&steering.yaw, "yaw")?,
             lateral: gain(&steering.lateral_rad_m, "lateral_rad_m")?,
             lateral_sum: gain(&steering.lateral_sum_rad_m, "lateral_sum_rad_m")?,
+            yaw_sum: gain(&steering.yaw_sum, "yaw_sum")?,
         },
         uphill: number(&table.uphill_deg, "uphill_deg", steepest_deg)?.to_radians(),
     })

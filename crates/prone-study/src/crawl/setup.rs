@@ -5,7 +5,7 @@ mod error;
 pub use error::{CrawlRunError, CrawlSetupError, RefusedCycle};
 
 use prone::crawl::{CrawlerError, Pilot, SlopeAware, Straight};
-use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, TimeScale};
+use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, Steer, TimeScale};
 use prone::regime::{MotorServo, Regime};
 use prone::robot::JointAngles;
 use prone::scene::{Obstacle, Scene, SideFriction};
@@ -52,7 +52,7 @@ pub struct CrawlSetup {
 #[derive(Debug, Clone, Copy)]
 enum Steering {
     Straight { turn: f64 },
-    Hold { limit: f64 },
+    Hold { limit: f64, shift_limit: f64 },
     To(TurnTo),
 }
 
@@ -106,11 +106,15 @@ impl CrawlSetup {
         let world = World::in_scene(&robot, regime(experiment), &scene)?;
         let scale = TimeScale::new(experiment.time_scale)?;
         let steering = steering(experiment.steering, &gait)?;
-        for turn in steering.extremes() {
+        for steer in steering.extremes() {
             for gait in [Some(&gait), uphill.as_ref()].into_iter().flatten() {
-                let checked =
-                    CheckedCycle::plan(world.robot(), world.stops(), &gait.cycle, turn, scale)
-                        .map_err(|error| gait.refused(&error))?;
+                let most = gait.cycle.steering.as_ref();
+                let most = most.map_or(0.0, |it| it.shift_limit);
+                let shift = steer.shift.clamp(-most, most);
+                let steer = Steer { shift, ..steer };
+                let (robot, stops) = (world.robot(), world.stops());
+                let checked = CheckedCycle::plan_steered(robot, stops, &gait.cycle, steer, scale)
+                    .map_err(|error| gait.refused(&error))?;
                 check_limbs(&world, &checked).map_err(|source| CrawlSetupError::Limbs {
                     file: (!gait.is_shipped()).then(|| gait.file.clone()),
                     source: Box::new(source),
@@ -226,7 +230,9 @@ impl CrawlSetup {
         let control = &self.world.robot().control;
         let steering: Box<dyn Pilot> = match self.steering {
             Steering::Straight { turn } => Box::new(Straight { turn }),
-            Steering::Hold { limit } => Box::new(HeadingHold::new(control.steering, limit)),
+            Steering::Hold { limit, shift_limit } => {
+                Box::new(HeadingHold::new(control.steering, limit).shifting(shift_limit))
+            }
             Steering::To(to) => Box::new(to),
         };
         if self.uphill.is_none() {
@@ -248,12 +254,25 @@ impl CrawlRunError {
 }
 
 impl Steering {
-    /// The turns between which all others lie, rad.
-    fn extremes(self) -> [f64; 2] {
+    /// What lies at the corners of all that may be commanded.
+    fn extremes(self) -> Vec<Steer> {
+        let turned = |turn| Steer { turn, shift: 0.0 };
         match self {
             // The first pull is straight.
-            Self::Straight { turn } => [0.0, turn],
-            Self::Hold { limit } | Self::To(TurnTo { limit, .. }) => [-limit, limit],
+            Self::Straight { turn } => [0.0, turn].map(turned).to_vec(),
+            Self::To(TurnTo { limit, .. }) => [-limit, limit].map(turned).to_vec(),
+            Self::Hold { limit, shift_limit } => {
+                let shifts = if shift_limit > 0.0 {
+                    vec![-shift_limit, shift_limit]
+                } else {
+                    vec![0.0]
+                };
+                let steers = [-limit, limit].into_iter().flat_map(|turn| {
+                    let shifts = shifts.iter();
+                    shifts.map(move |&shift| Steer { turn, shift })
+                });
+                steers.collect()
+            }
         }
     }
 }
@@ -263,7 +282,13 @@ fn steering(choice: SteeringChoice, gait: &GaitSource) -> Result<Steering, Crawl
     let limit = gait.cycle.steering.as_ref().map(|steering| steering.limit);
     let needed = || limit.ok_or_else(|| CrawlSetupError::NoSteering { gait: name() });
     match choice {
-        SteeringChoice::Line => Ok(Steering::Hold { limit: needed()? }),
+        SteeringChoice::Line => {
+            let steering = gait.cycle.steering.as_ref();
+            Ok(Steering::Hold {
+                limit: needed()?,
+                shift_limit: steering.map_or(0.0, |it| it.shift_limit),
+            })
+        }
         SteeringChoice::Heading { degrees } => Ok(Steering::To(TurnTo {
             heading: degrees.to_radians(),
             limit: needed()?,

@@ -254,6 +254,7 @@ fn per_cycle(world: &World, cycles: &[CycleRow]) -> Vec<CycleSummary> {
         CycleSummary {
             cycle: index + 1,
             turn_command_deg: row.turn.to_degrees(),
+            shift_command_deg: row.shift.to_degrees(),
             begin_s: row.begin,
             time_s: row.seconds,
             advance_mm: advance.forward * 1e3,

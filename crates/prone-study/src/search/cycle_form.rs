@@ -58,6 +58,8 @@ enum Variable {
     Joint(usize, String),
     /// The factor of a waypoint's turn of a joint.
     Turn(usize, String),
+    /// The factor of a waypoint's shift of a joint.
+    Shift(usize, String),
     /// The pull's time.
     PullTime,
     /// The time of the way to a waypoint, or, beyond the last one, to the pull's first posture.
@@ -151,6 +153,10 @@ impl CycleForm {
                 let variable = Variable::Turn(index, joint.clone());
                 self.add(variable, factor, TURN_REACH, ANY)?;
             }
+            for (joint, &factor) in &waypoint.shift {
+                let variable = Variable::Shift(index, joint.clone());
+                self.add(variable, factor, TURN_REACH, ANY)?;
+            }
         }
         Ok(())
     }
@@ -238,6 +244,9 @@ impl CycleForm {
                 }
                 Variable::Turn(index, joint) => {
                     cycle.waypoints[*index].turn.insert(joint.clone(), value);
+                }
+                Variable::Shift(index, joint) => {
+                    cycle.waypoints[*index].shift.insert(joint.clone(), value);
                 }
                 Variable::PullTime => {
                     if let Some(pull) = &mut cycle.pull {
@@ -412,6 +421,7 @@ mod tests {
                 Variable::Curve(PullCurve::Company(joint), c) => at(&pull().company[joint], *c),
                 Variable::Joint(index, joint) => cycle.waypoints[*index].joints[joint],
                 Variable::Turn(index, joint) => cycle.waypoints[*index].turn[joint],
+                Variable::Shift(index, joint) => cycle.waypoints[*index].shift[joint],
                 Variable::PullTime | Variable::Time(_) => time(variable),
             });
             numbers.collect()

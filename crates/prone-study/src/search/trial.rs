@@ -62,10 +62,7 @@ pub fn try_out(setting: &Setting, cycle: &Cycle) -> Result<Trial, CrawlError> {
     if let (Some(pull), Some(duration)) = (&mut cycle.pull, setting.spec.pull) {
         pull.duration = duration;
     }
-    let limit = cycle
-        .steering
-        .as_ref()
-        .map_or(0.0, |steering| steering.limit);
+    let steering = cycle.steering.clone();
     let plan = CrawlPlan {
         cycles: vec![cycle],
         scale: setting.spec.scale,
@@ -76,12 +73,16 @@ pub fn try_out(setting: &Setting, cycle: &Cycle) -> Result<Trial, CrawlError> {
         on_touch: OnTouch::GoOn,
         detail: Detail::Sums,
     };
-    let turn = setting.spec.turn * limit;
-    let pilot: Box<dyn Pilot> = if setting.spec.held && limit > 0.0 {
-        let gains = setting.world.robot().control.steering;
-        Box::new(HeadingHold::new(gains, limit))
-    } else {
-        Box::new(Straight { turn })
+    let pilot: Box<dyn Pilot> = match steering {
+        Some(steering) if setting.spec.held => {
+            let gains = setting.world.robot().control.steering;
+            Box::new(HeadingHold::of(gains, &steering))
+        }
+        steering => {
+            let limit = steering.map_or(0.0, |steering| steering.limit);
+            let turn = setting.spec.turn * limit;
+            Box::new(Straight { turn })
+        }
     };
     let crawl = crawl::run(&setting.world, &plan, pilot)?;
     Ok(measured(setting, &crawl))

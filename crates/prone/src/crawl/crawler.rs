@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::gait::cycle::CheckedCycle;
+use crate::gait::cycle::{CheckedCycle, Steer};
 use crate::port::{JointCommand, Senses};
 use crate::robot::{JointAngles, Range, Robot};
 
@@ -81,7 +81,7 @@ impl<P: Pilot> Crawler<P> {
         program.begin.check()?;
         let first = Decision {
             cycle: 0,
-            turn: 0.0,
+            steer: Steer::STRAIGHT,
         };
         let cycle = program.plan(&robot, &stops, first, 1)?;
         Ok(Self {

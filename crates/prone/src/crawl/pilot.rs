@@ -1,6 +1,7 @@
 //! Who says which cycle comes next, and how it turns.
 
 use crate::attitude::AttitudeError;
+use crate::gait::cycle::Steer;
 use crate::port::Senses;
 use crate::robot::Robot;
 use crate::steering::{HeadingHold, TurnTo};
@@ -57,8 +58,18 @@ pub enum Stage {
 pub struct Decision {
     /// Index of the cycle among those of the crawl.
     pub cycle: usize,
-    /// Turn command, rad, positive to the left.
-    pub turn: f64,
+    /// What it is steered by.
+    pub steer: Steer,
+}
+
+impl Decision {
+    /// The crawl's first cycle, turned.
+    const fn turned(turn: f64) -> Self {
+        Self {
+            cycle: 0,
+            steer: Steer { turn, shift: 0.0 },
+        }
+    }
 }
 
 /// Why a pilot cannot decide.
@@ -96,8 +107,7 @@ pub struct Straight {
 
 impl Pilot for Straight {
     fn decide(&mut self, _: &Moment<'_>) -> Result<Decision, PilotError> {
-        let turn = self.turn;
-        Ok(Decision { cycle: 0, turn })
+        Ok(Decision::turned(self.turn))
     }
 }
 
@@ -105,8 +115,10 @@ impl Pilot for Straight {
 impl Pilot for HeadingHold {
     fn decide(&mut self, now: &Moment<'_>) -> Result<Decision, PilotError> {
         let bearing = now.senses.bearing.ok_or(PilotError::NoBearing)?;
-        let turn = self.turn(bearing);
-        Ok(Decision { cycle: 0, turn })
+        Ok(Decision {
+            cycle: 0,
+            steer: self.steer(bearing),
+        })
     }
 }
 
@@ -114,8 +126,7 @@ impl Pilot for HeadingHold {
 impl Pilot for TurnTo {
     fn decide(&mut self, now: &Moment<'_>) -> Result<Decision, PilotError> {
         let bearing = now.senses.bearing.ok_or(PilotError::NoBearing)?;
-        let turn = self.turn(bearing);
-        Ok(Decision { cycle: 0, turn })
+        Ok(Decision::turned(self.turn(bearing)))
     }
 }
 

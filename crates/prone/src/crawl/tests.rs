@@ -45,10 +45,12 @@ fn cycle(name: &str) -> Cycle {
             approach,
             joints: BTreeMap::new(),
             turn: BTreeMap::new(),
+            shift: BTreeMap::new(),
         }],
         rest: 0.0,
         steering: Some(Steering {
             limit: 0.2,
+            shift_limit: 0.0,
             dead_band: 0.0,
             spread: 1.0,
             joints: BTreeMap::new(),

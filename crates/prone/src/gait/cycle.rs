@@ -26,6 +26,11 @@
 //! small ones are made up to twice as large and large ones are larger by d. w is odd and rises with
 //! u everywhere.
 //!
+//! A cycle may have a second command, the shift v, positive to the left, that is added to waypoints by
+//! factors of its own: it moves the robot aside without turning it. Where a limb pushes, the angle that
+//! turns and the angle that shifts are not the same, and with one of them alone a robot that is pushed
+//! aside must head askew to come back.
+//!
 //! [`CheckedCycle::plan`] holds all of it against a robot: stops, limits that depend on another
 //! joint, joint speeds, the closed chain.
 
@@ -98,6 +103,25 @@ pub struct Waypoint {
     /// is enough: the other one gets the opposite of its mirror image, since a turn to the left is
     /// the mirror image of one to the right.
     pub turn: BTreeMap<String, f64>,
+    /// The same of v, which shifts.
+    pub shift: BTreeMap<String, f64>,
+}
+
+/// What a cycle is steered by, rad, positive to the left.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Steer {
+    /// u, which turns.
+    pub turn: f64,
+    /// v, which moves aside.
+    pub shift: f64,
+}
+
+impl Steer {
+    /// Straight on.
+    pub const STRAIGHT: Self = Self {
+        turn: 0.0,
+        shift: 0.0,
+    };
 }
 
 /// How a posture is reached from the one before.
@@ -124,6 +148,8 @@ pub enum Easing {
 pub struct Steering {
     /// The largest |u|, rad.
     pub limit: f64,
+    /// The largest |v|, rad; 0 where it cannot be shifted.
+    pub shift_limit: f64,
     /// d of equation (1), rad: what of a command friction swallows.
     pub dead_band: f64,
     /// k: how much of u the arms are spread by in the pull.
@@ -272,6 +298,7 @@ mod tests {
     fn a_turn_at_waypoints_is_odd_and_rises_with_the_command() {
         let steering = |dead_band: f64| Steering {
             limit: 0.2,
+            shift_limit: 0.0,
             dead_band,
             spread: 0.0,
             joints: BTreeMap::new(),

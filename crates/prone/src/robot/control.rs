@@ -20,7 +20,7 @@ pub struct Control {
     pub uphill: f64,
 }
 
-/// Gains of equation (1) of [`crate::steering`].
+/// Gains of equations (1) to (3) of [`crate::steering`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SteeringGains {
     /// k, turn commanded per heading error, without unit.
@@ -29,6 +29,8 @@ pub struct SteeringGains {
     pub lateral: f64,
     /// b, heading error per sum of the lateral offsets over the cycles, rad/m.
     pub lateral_sum: f64,
+    /// c, heading error per sum of the heading errors over the cycles, of cycles that can be shifted.
+    pub yaw_sum: f64,
 }
 
 /// Within what searches look for cycles of a robot.

@@ -90,11 +90,11 @@ pub(super) fn attempt(
         imu_seed: None,
         detail: Detail::Sums,
     };
-    let limit = cycle.steering.as_ref().map(|steering| steering.limit);
-    let pilot: Box<dyn Pilot> = match limit.filter(|_| setting.spec.held) {
-        Some(limit) => {
+    let steering = cycle.steering.as_ref();
+    let pilot: Box<dyn Pilot> = match steering.filter(|_| setting.spec.held) {
+        Some(steering) => {
             let gains = setting.world.robot().control.steering;
-            Box::new(HeadingHold::new(gains, limit))
+            Box::new(HeadingHold::of(gains, steering))
         }
         None => Box::new(Straight { turn: 0.0 }),
     };

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::super::{CheckedTrajectory, Clamp};
-use super::{Approach, CycleError};
+use super::{Approach, CycleError, Steer};
 use crate::robot::{CoupledLimit, JointAngles, Range};
 
 /// A cycle whose every posture lies within the stops it was planned for and whose every joint
@@ -11,7 +11,7 @@ use crate::robot::{CoupledLimit, JointAngles, Range};
 #[derive(Debug, Clone, PartialEq)]
 pub struct CheckedCycle {
     pub(super) name: String,
-    pub(super) turn: f64,
+    pub(super) steer: Steer,
     pub(super) pull: Option<CheckedTrajectory>,
     /// The posture in which it begins.
     pub(super) extension: JointAngles,
@@ -64,7 +64,12 @@ impl CheckedCycle {
 
     /// The turn command, rad.
     pub const fn turn(&self) -> f64 {
-        self.turn
+        self.steer.turn
+    }
+
+    /// What it is steered by, rad.
+    pub const fn steer(&self) -> Steer {
+        self.steer
     }
 
     /// The posture in which it begins.

@@ -52,12 +52,16 @@ pub enum CycleError {
         seconds: f64,
     },
     /// A turn that the cycle has no steering for.
-    #[error("cycle {cycle}: a turn of {turn_deg:.2}° is more than its steering's {limit_deg:.2}°")]
+    #[error(
+        "cycle {cycle}: a {what} of {asked_deg:.2}° is more than its steering's {limit_deg:.2}°"
+    )]
     Turn {
         /// The cycle's name.
         cycle: String,
+        /// Turn or shift.
+        what: &'static str,
         /// What was asked for, degrees.
-        turn_deg: f64,
+        asked_deg: f64,
         /// The largest, degrees; 0 without steering.
         limit_deg: f64,
     },

@@ -5,7 +5,9 @@ use std::collections::BTreeMap;
 use super::super::trajectory::{Company, note};
 use super::super::{CheckedTrajectory, Clamp, LimitsPolicy, PhaseDuration};
 use super::checked::{RecoveryPath, Stretch};
-use super::{Approach, CheckedCycle, Cycle, CycleError, Easing, FastestJoint, TimeScale, Waypoint};
+use super::{
+    Approach, CheckedCycle, Cycle, CycleError, Easing, FastestJoint, Steer, TimeScale, Waypoint,
+};
 use crate::robot::{JointAngles, JointId, Mirror, Range, Robot, SideLayout};
 
 /// Time between two samples of a planned pull, s: commands in between are interpolated.
@@ -33,6 +35,22 @@ impl CheckedCycle {
         turn: f64,
         scale: TimeScale,
     ) -> Result<Self, CycleError> {
+        let steer = Steer { turn, shift: 0.0 };
+        Self::plan_steered(robot, stops, cycle, steer, scale)
+    }
+
+    /// The same with a shift beside the turn.
+    ///
+    /// # Errors
+    /// [`CycleError`], naming cycle, place, joint and amount.
+    pub fn plan_steered(
+        robot: &Robot,
+        stops: &[Range],
+        cycle: &Cycle,
+        steer: Steer,
+        scale: TimeScale,
+    ) -> Result<Self, CycleError> {
+        let turn = steer.turn;
         let planner = Planner {
             robot,
             stops,
@@ -40,13 +58,13 @@ impl CheckedCycle {
             mirror: Mirror::of(robot),
         };
         planner.check_stops()?;
-        planner.check_turn(turn)?;
+        planner.check_steer(steer)?;
         let pull = planner.pull(turn, scale)?;
         let mut clamps = match &pull {
             Some(pull) => pull.clamps().to_vec(),
             None => Vec::new(),
         };
-        let mut stretches = planner.waypoints(turn, scale, &mut clamps)?;
+        let mut stretches = planner.waypoints(steer, scale, &mut clamps)?;
         let (extension, root_pitch) = match (&pull, &cycle.pull) {
             (Some(planned), Some(pull)) => {
                 let first = planned.first();
@@ -72,7 +90,7 @@ impl CheckedCycle {
         let aside = planner.aside(pull.as_ref(), turn, scale)?;
         let mut checked = Self {
             name: cycle.name.clone(),
-            turn,
+            steer,
             pull,
             extension,
             root_pitch,
@@ -124,18 +142,21 @@ impl Planner<'_> {
         })
     }
 
-    fn check_turn(&self, turn: f64) -> Result<(), CycleError> {
+    fn check_steer(&self, Steer { turn, shift }: Steer) -> Result<(), CycleError> {
         let steering = self.cycle.steering.as_ref();
-        let limit = steering.map_or(0.0, |steering| steering.limit);
-        // NaN is no turn either.
-        if turn.abs() <= limit {
-            return Ok(());
+        let limits = steering.map_or((0.0, 0.0), |it| (it.limit, it.shift_limit));
+        for (what, asked, limit) in [("turn", turn, limits.0), ("shift", shift, limits.1)] {
+            // NaN is within no limit.
+            if !(-limit..=limit).contains(&asked) {
+                return Err(CycleError::Turn {
+                    cycle: self.cycle.name.clone(),
+                    what,
+                    asked_deg: asked.to_degrees(),
+                    limit_deg: limit.to_degrees(),
+                });
+            }
         }
-        Err(CycleError::Turn {
-            cycle: self.cycle.name.clone(),
-            turn_deg: turn.to_degrees(),
-            limit_deg: limit.to_degrees(),
-        })
+        Ok(())
     }
 
     fn pull(&self, turn: f64, scale: TimeScale) -> Result<Option<CheckedTrajectory>, CycleError> {
@@ -220,7 +241,7 @@ impl Planner<'_> {
 
     fn waypoints(
         &self,
-        turn: f64,
+        steer: Steer,
         scale: TimeScale,
         clamps: &mut Vec<Clamp>,
     ) -> Result<Vec<Stretch>, CycleError> {
@@ -240,7 +261,7 @@ impl Planner<'_> {
                     targets[joint.0] = Some(0.0);
                 }
             }
-            let added = self.added(&place, waypoint, turn)?;
+            let added = self.added(&place, waypoint, steer)?;
             for (joint, sign, &angle) in self.with_twins(&place, &waypoint.joints)? {
                 let angle = sign * angle + added.get(&joint).copied().unwrap_or_default();
                 targets[joint.0] = Some(self.within_stop(&place, joint, angle, clamps)?);
@@ -266,21 +287,23 @@ impl Planner<'_> {
         &self,
         place: &str,
         waypoint: &Waypoint,
-        turn: f64,
+        steer: Steer,
     ) -> Result<BTreeMap<JointId, f64>, CycleError> {
         let steering = self.cycle.steering.as_ref();
-        let w = steering.map_or(0.0, |steering| steering.at_waypoints(turn));
-        let mut added = BTreeMap::new();
-        for (name, factor) in &waypoint.turn {
-            let joint = self.joint(place, name)?;
-            added.insert(joint, factor * w);
-            let twin = self.mirror.twin(joint);
-            let twin = twin.filter(|twin| {
-                let name = &self.robot.joints[twin.joint.0].name;
-                twin.joint != joint && !waypoint.turn.contains_key(name)
-            });
-            if let Some(twin) = twin {
-                added.insert(twin.joint, -twin.sign * factor * w);
+        let w = steering.map_or(0.0, |steering| steering.at_waypoints(steer.turn));
+        let mut added: BTreeMap<JointId, f64> = BTreeMap::new();
+        for (factors, command) in [(&waypoint.turn, w), (&waypoint.shift, steer.shift)] {
+            for (name, factor) in factors {
+                let joint = self.joint(place, name)?;
+                *added.entry(joint).or_default() += factor * command;
+                let twin = self.mirror.twin(joint);
+                let twin = twin.filter(|twin| {
+                    let name = &self.robot.joints[twin.joint.0].name;
+                    twin.joint != joint && !factors.contains_key(name)
+                });
+                if let Some(twin) = twin {
+                    *added.entry(twin.joint).or_default() -= twin.sign * factor * command;
+                }
             }
         }
         Ok(added)
