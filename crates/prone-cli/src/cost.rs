@@ -18,7 +18,10 @@ pub(crate) fn plan(args: &CostArgs) -> Result<Plan, Failure> {
     let files = crate::robot::files(args.terms.robot.name())?;
     let is_cycle = match args.terms.source.as_deref() {
         Some(source) => source == "cycle",
-        None => crate::gait::is_cycle(&files.gaits, args.gait.name())?,
+        None => {
+            let named = files.gaits.named(args.gait.name());
+            named.map_err(Failure::input)?.is_cycle()
+        }
     };
     let experiment = if is_cycle {
         Experiment::CycleCost(Box::new(cycle(args, &files)?))

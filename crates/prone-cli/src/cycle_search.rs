@@ -7,8 +7,8 @@ use anyhow::anyhow;
 use prone::motor::HEAD_CARRIES;
 use prone_files::robot_folder::RobotFiles;
 use prone_record::experiment::{
-    CycleRulesChoice, CycleSearchExperiment, Experiment, GaitText, LeastDuty, NamedGait, RobotText,
-    Runs, Under,
+    CycleRulesChoice, CycleSearchExperiment, Experiment, GaitText, LeastVerdict, NamedGait,
+    RobotText, Runs, Under,
 };
 use prone_record::frontier::{CycleObjective, Frontier, Quantity, SettingKind};
 use prone_record::measure::broken_sentence;

@@ -97,7 +97,7 @@ pub enum Options {
     /// Of a pull.
     Pull(PullOptions),
     /// Of a crawl, or of a robot that was driven.
-    Crawl(CrawlOptions),
+    Crawl(Box<CrawlOptions>),
 }
 
 impl Options {

@@ -9,7 +9,7 @@ use prone_record::experiment::{
     ClearanceChoice, CostExperiment, CrawlExperiment, CycleCostExperiment, CycleRulesChoice,
     CycleSearchExperiment, Detail, Ending, Ends, Experiment, GaitForm, GaitText, LimitsChoice,
     MapSource, NamedGait, PassageCycle, PassageExperiment, PullCostChoice, PullExperiment,
-    PullObjective, PullRules, PullSearchExperiment, RobotText, Runs, SceneText, Share,
+    PullObjective, PullRules, PullSearchExperiment, RobotText, Runs, SceneText, ServoChoice, Share,
     SteeringChoice, TorqueChoice, TorqueMapExperiment, Under,
 };
 use prone_record::frontier::{CycleObjective, Quantity};
@@ -131,6 +131,29 @@ fn limit_what_no_crawl_can_have() {
                 it.seed = Some(1);
             }),
             "a calibration error of NaN° is outside 0 to 10°",
+        ),
+        (
+            refused(|it| it.late_commands_ms = Some(20.0)),
+            "the delays of commands cannot be drawn without a seed",
+        ),
+        (
+            refused(|it| {
+                it.late_commands_ms = Some(20.1);
+                it.seed = Some(1);
+            }),
+            "a delay of 20.1 ms is outside 0 to 20 ms",
+        ),
+        (
+            refused(|it| it.mass_factor = Some(0.0)),
+            "a factor of masses of 0 is outside 0.5 to 2",
+        ),
+        (
+            refused(|it| it.servo = ServoChoice::Times(5.0)),
+            "a factor of stiffness of 5 is outside 0.1 to 4",
+        ),
+        (
+            refused(|it| it.backlash_deg = Some(f64::NAN)),
+            "a backlash of NaN° is outside 0 to 5°",
         ),
         (
             refused(|it| it.ending = Ending::Cycles(0)),

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
-use prone_record::experiment::{GaitForm, PullSearchExperiment};
+use prone_record::experiment::{CycleSearchExperiment, GaitForm, PullSearchExperiment};
 
 use super::cycle_rules::CycleRulesArgs;
 use super::named::GaitArg;

@@ -116,7 +116,7 @@ pub fn numbers(
         command_step_s: world.robot().control.command_step,
         rows: crawl.rows.len(),
         row_step_s: ROW_STEP,
-        options: Options::Crawl(conditions.clone()),
+        options: Options::Crawl(Box::new(conditions.clone())),
     };
     let start = crawl
         .cycles
