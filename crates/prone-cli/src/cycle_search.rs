@@ -107,7 +107,7 @@ pub(crate) fn experiment(args: &OptimizeArgs) -> Result<CycleSearchExperiment, F
         objective: objective(&args.terms)?,
         steerable: args.cycle.steerable,
         under: Under::One {
-            rules: rules(&args.cycle),
+            rules: Box::new(rules(&args.cycle)),
             worst_over: worst_over(&args.cycle, &files)?,
             name: args.name.clone(),
         },

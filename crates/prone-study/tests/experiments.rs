@@ -372,10 +372,10 @@ fn a_search_of_cycles_that_was_sent() {
         objective: CycleObjective::Advance,
         steerable: false,
         under: Under::One {
-            rules: CycleRulesChoice {
+            rules: Box::new(CycleRulesChoice {
                 ceiling_mm: Some(178.0),
                 ..CycleRulesChoice::default()
-            },
+            }),
             worst_over: None,
             name: Some("low".to_owned()),
         },
@@ -409,7 +409,7 @@ fn a_search_of_cycles_that_was_sent() {
         refused.unwrap_err().to_string()
     };
     let said = refused(Under::One {
-        rules: CycleRulesChoice::default(),
+        rules: Box::default(),
         worst_over: None,
         name: Some("a/b".to_owned()),
     });
@@ -431,10 +431,10 @@ fn a_search_of_cycles_that_was_sent() {
         assert!(said.contains(reason), "{said}");
     }
     let said = refused(Under::One {
-        rules: CycleRulesChoice {
+        rules: Box::new(CycleRulesChoice {
             most_heat: Some(100.0),
             ..CycleRulesChoice::default()
-        },
+        }),
         worst_over: None,
         name: None,
     });
