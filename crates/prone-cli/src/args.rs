@@ -68,7 +68,7 @@ pub(crate) enum Command {
     /// Search a better gait, and simulate what is found beside the published ones
     Optimize(Box<optimize::OptimizeArgs>),
     /// Tell what one gait costs
-    Cost(optimize::CostArgs),
+    Cost(Box<optimize::CostArgs>),
     /// Look at gaits
     #[command(subcommand)]
     Gait(GaitCommand),

@@ -111,7 +111,7 @@ pub(crate) fn experiment(args: &OptimizeArgs) -> Result<CycleSearchExperiment, F
         ideal: args.cycle.ideal,
         reach: args.cycle.reach.unwrap_or(1.0),
         under: Under::One {
-            rules: rules(&args.cycle),
+            rules: Box::new(rules(&args.cycle)),
             worst_over: worst_over(&args.cycle, &files)?,
             name: args.name.clone(),
         },

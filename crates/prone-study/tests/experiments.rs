@@ -397,10 +397,10 @@ fn a_search_of_cycles_that_was_sent() {
         ideal: false,
         reach: 1.0,
         under: Under::One {
-            rules: CycleRulesChoice {
+            rules: Box::new(CycleRulesChoice {
                 ceiling_mm: Some(178.0),
                 ..CycleRulesChoice::default()
-            },
+            }),
             worst_over: None,
             name: Some("low".to_owned()),
         },
@@ -434,7 +434,7 @@ fn a_search_of_cycles_that_was_sent() {
         refused.unwrap_err().to_string()
     };
     let said = refused(Under::One {
-        rules: CycleRulesChoice::default(),
+        rules: Box::default(),
         worst_over: None,
         name: Some("a/b".to_owned()),
     });
@@ -456,10 +456,10 @@ fn a_search_of_cycles_that_was_sent() {
         assert!(said.contains(reason), "{said}");
     }
     let said = refused(Under::One {
-        rules: CycleRulesChoice {
+        rules: Box::new(CycleRulesChoice {
             most_heat: Some(100.0),
             ..CycleRulesChoice::default()
-        },
+        }),
         worst_over: None,
         name: None,
     });

@@ -149,7 +149,7 @@ pub enum Under {
     /// One ceiling or none, by rules that may be asked for: `prone optimize --source cycle`.
     One {
         /// The rules.
-        rules: CycleRulesChoice,
+        rules: Box<CycleRulesChoice>,
         /// The cycle over whose heats those found are.
         worst_over: Option<NamedGait>,
         /// Name of the found cycle; without one it is called after the objective.

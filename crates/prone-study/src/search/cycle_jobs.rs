@@ -152,7 +152,7 @@ pub fn jobs(
         Under::Across { .. } => (Merge::Mean, CycleRulesChoice::default()),
         Under::One {
             rules, worst_over, ..
-        } => (merge(worst_over.as_ref(), &searched)?, *rules),
+        } => (merge(worst_over.as_ref(), &searched)?, **rules),
     };
     let job = |Point { at, height }| {
         if watch.stop() {
@@ -465,7 +465,7 @@ fn under_plan(experiment: &CycleSearchExperiment, job: Option<&Job<CycleSearch>>
                 source: "cycle".to_owned(),
                 rules: CycleRulesChoice {
                     least_advance_mm: advance,
-                    ..*rules
+                    ..**rules
                 },
                 worst_over: worst_over.as_ref().map(|it| it.called.clone()),
                 from: job.map_or_else(String::new, |job| job.base.clone()),

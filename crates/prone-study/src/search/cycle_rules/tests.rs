@@ -362,6 +362,7 @@ fn a_cycle_holds_where_it_is_low_far_and_straight() {
         seconds: 4.0,
         top: (0.17, BodyPart::Head),
         heat_per_metre: 50.0,
+        duty: (RULES.most_duty, String::new()),
         peak_over_limit: (1.0, String::new()),
         demanded_shoulder: 2.0,
         head: 0.5,
