@@ -17,7 +17,7 @@ use crate::args::optimize::{OptimizeArgs, SolverName};
 use crate::args::passage::{AgainstName, FrontierArgs};
 use crate::args::pull_terms::ObjectiveName;
 use crate::gait::find_cycle;
-use crate::plan::{self, Plan, Work};
+use crate::plan::{self, OnContact, Plan, Work};
 
 /// Most evaluations of a run of `prone optimize` where none are asked for.
 const BUDGET: u64 = 1600;
@@ -48,6 +48,7 @@ pub(crate) fn frontier(args: &FrontierArgs) -> Result<Plan, Failure> {
         opening: plan::searching(args.resume),
         threads: args.threads,
         json: args.json,
+        on_contact: OnContact::Report,
     })
 }
 

@@ -142,6 +142,10 @@ fn of_crawl(error: CrawlSetupError) -> Failure {
 }
 
 fn of_scene(error: SceneError) -> Failure {
+    if let SceneError::TakenForMetres { value, meant, .. } = error {
+        let [value, meant] = [value, meant].map(|metres| (metres * 1e12).round() / 1e9);
+        return Failure::Input(anyhow!("--ceiling-mm {value}: did you mean {meant}?"));
+    }
     let SceneError::OutOfBounds {
         quantity,
         value,

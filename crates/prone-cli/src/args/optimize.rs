@@ -82,7 +82,7 @@ pub(crate) struct OptimizeArgs {
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = super::phase_duration)]
     pub(crate) confirm_durations: Option<Vec<prone::gait::PhaseDuration>>,
     /// cycle: height below which everything stays, mm [default: none]
-    #[arg(long, value_name = "H", value_parser = super::passage::height, allow_negative_numbers = true)]
+    #[arg(long, value_name = "H", value_parser = super::passage::ceiling, allow_negative_numbers = true)]
     pub(crate) ceiling_mm: Option<f64>,
     /// cycle: only cycles that can be steered, as in `prone crawl frontier --steerable`
     #[arg(long)]

@@ -18,7 +18,7 @@ ceiling by the margin is the answer. Where none does and a seed is given, one is
 code is 0 for either answer.")]
 pub(crate) struct UnderArgs {
     /// Height of the ceiling above the floor, mm
-    #[arg(long, value_name = "H", value_parser = height, allow_negative_numbers = true)]
+    #[arg(long, value_name = "H", value_parser = ceiling, allow_negative_numbers = true)]
     pub(crate) ceiling_mm: f64,
     /// Distance that has to stay between robot and ceiling, mm
     #[arg(long, value_name = "MM", default_value = "3", value_parser = margin, allow_negative_numbers = true)]
@@ -57,7 +57,7 @@ keep 80 % of its advance and the ceiling to hold), and with stiff servos, for in
 and --resume goes on from there to the same bytes.")]
 pub(crate) struct FrontierArgs {
     /// Ceilings, mm
-    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "165,183,200", value_parser = height, allow_negative_numbers = true)]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "165,183,200", value_parser = ceiling, allow_negative_numbers = true)]
     pub(crate) ceilings_mm: Vec<f64>,
     /// What is searched under each ceiling
     #[arg(long, value_enum, default_value = "advance")]
@@ -106,6 +106,23 @@ pub(crate) enum AgainstName {
     Advance,
     /// The least motor heat per metre
     Heat,
+}
+
+/// A ceiling as typed, mm: one that is lower than any robot was typed in metres.
+pub(crate) fn ceiling(text: &str) -> Result<f64, String> {
+    let mm = height(text).or_else(|error| match text.trim().parse() {
+        Ok(mm) if mm > 0.0 && mm < 1.0 => Ok(mm),
+        _ => Err(error),
+    })?;
+    match prone::scene::taken_for_metres(mm / 1e3) {
+        Some(metres) => Err(format!("{mm} mm: did you mean {}?", rounded(metres * 1e3))),
+        None => Ok(mm),
+    }
+}
+
+/// Without the digits that a conversion makes up.
+fn rounded(number: f64) -> f64 {
+    (number * 1e9).round() / 1e9
 }
 
 /// A height as typed, mm: above nothing, below any room.

@@ -8,6 +8,7 @@ use prone::robot::{BodyPart, ContactGroup, Drive, JointAngles, Tops};
 use prone::scene::ContactForce;
 use prone::steering::Bearing;
 
+use super::extent::{Nearness, Sides};
 use super::ground::{BodyLoad, GroundLoad};
 use super::touch::Touches;
 use super::{Crawl, Detail, ROW_STEP};
@@ -127,6 +128,7 @@ pub(super) struct Meter {
     /// What was commanded last, and since when, s.
     command: Option<(JointAngles, f64)>,
     touches: Touches,
+    nearness: Nearness,
 }
 
 /// What a command asks of the motors.
@@ -170,6 +172,8 @@ impl Meter {
                 effort: Effort::none(robot),
                 ground: GroundLoad::default(),
                 tops: Tops::NONE,
+                sides: Sides::NONE,
+                nearest: None,
                 touches: Vec::new(),
                 stopped: Vec::new(),
                 rows: Vec::new(),
@@ -178,6 +182,7 @@ impl Meter {
                 engine_steps: 0,
             },
             touches: Touches::new(simulation.world()),
+            nearness: Nearness::new(simulation.world()),
             detail,
             parts: BodyPart::of_shapes(robot),
             drives: robot.drives(),
@@ -313,6 +318,11 @@ impl Meter {
         let contact = sums.contacts.ground();
         let poses = simulation.body_poses();
         let tops = Tops::from_poses(robot, &self.parts, &poses);
+        let (root, angles) = (simulation.ground_from_root(), simulation.joint_angles());
+        let time = simulation.time() - self.begin.unwrap_or_default();
+        let sides = Sides::from_poses(robot, &poses, &root);
+        self.crawl.sides.widen(sides);
+        self.nearness.see(&angles, time);
         let done = self.crawl.cycles.len();
         // The last row of all ends with the last cycle.
         let (cycle, index) = match &mut self.cycle {
@@ -332,19 +342,19 @@ impl Meter {
         let mean = |sum: f64| sum / sums.steps as f64;
         self.crawl.snapshots.push(simulation.snapshot());
         self.crawl.rows.push(Row {
-            time: simulation.time() - self.begin.unwrap_or_default(),
+            time,
             cycle: index,
             stage: sums.stage,
             command: self
                 .command
                 .as_ref()
                 .map_or_else(|| simulation.reference(), |(command, _)| command.clone()),
-            angles: simulation.joint_angles(),
+            angles,
             applied_torque: sums.torque.iter().map(|&sum| mean(sum)).collect(),
             contact,
             forces: sums.contacts.forces(),
             effort: sums.effort,
-            ground_from_root: simulation.ground_from_root(),
+            ground_from_root: root,
             tops,
         });
     }
@@ -359,6 +369,7 @@ impl Meter {
         }
         Crawl {
             touches: self.touches.finish(),
+            nearest: self.nearness.finish(),
             stopped: robot.stopped(),
             arrived,
             engine_steps: robot.simulation().steps(),

@@ -16,7 +16,7 @@ use prone_record::experiment::{
     TextError,
 };
 use prone_record::record_info::CrawlOptions;
-use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, End, ROW_STEP, check_limbs};
+use prone_sim::crawl::{self, Bound, Crawl, CrawlError, CrawlPlan, End, ROW_STEP, check_limbs};
 use prone_sim::{LoadedRobot, World};
 
 use super::run::{GaitSource, PastObstacles, offsets_by_name};
@@ -116,7 +116,10 @@ impl CrawlSetup {
             .joint_offset_deg
             .zip(experiment.seed)
             .map(|(degrees, seed)| offsets(world.robot(), degrees.to_radians(), seed));
-        let (Ending::Cycles(most_cycles) | Ending::PastObstacles(most_cycles)) = experiment.ending;
+        let most_cycles = match end {
+            End::Cycles(cycles) => cycles,
+            End::Past { bound, .. } => bound.most_cycles(),
+        };
         let (steering_name, turn_command_deg, heading_deg) = match experiment.steering {
             SteeringChoice::None => ("none", 0.0, None),
             SteeringChoice::Constant { degrees } => ("constant", degrees, None),
@@ -271,10 +274,11 @@ fn steering(choice: SteeringChoice, gait: &GaitSource) -> Result<Steering, Crawl
 
 /// What can be said of an experiment before anything of it is read.
 fn check(experiment: &CrawlExperiment) -> Result<(), CrawlSetupError> {
-    let (Ending::Cycles(cycles) | Ending::PastObstacles(cycles)) = experiment.ending;
-    let (fewest, most) = CrawlExperiment::CYCLES_BOUNDS;
-    let bounds = (fewest as f64, most as f64);
-    Limit::check("a crawl", " cycles", cycles as f64, bounds)?;
+    if let Ending::Cycles(cycles) | Ending::PastObstacles(Some(cycles)) = experiment.ending {
+        let (fewest, most) = CrawlExperiment::CYCLES_BOUNDS;
+        let bounds = (fewest as f64, most as f64);
+        Limit::check("a crawl", " cycles", cycles as f64, bounds)?;
+    }
     if let Some(seconds) = experiment.time_step_s {
         Limit::check("an engine step", " s", seconds, TIME_STEPS)?;
         let steps = ROW_STEP / seconds;
@@ -371,9 +375,9 @@ fn scene(choice: &SceneChoice) -> Result<Scene, CrawlSetupError> {
 
 /// When a crawl ends: past the obstacles, behind the last plate, leg or panel.
 fn end(ending: Ending, world: &World) -> Result<(End, Option<PastObstacles>), CrawlSetupError> {
-    let at_most = match ending {
+    let bound = match ending {
         Ending::Cycles(cycles) => return Ok((End::Cycles(cycles), None)),
-        Ending::PastObstacles(at_most) => at_most,
+        Ending::PastObstacles(cycles) => cycles.map_or(Bound::Pace, Bound::Cycles),
     };
     let far = |obstacle: &Obstacle| obstacle.ground_from_box.origin().x() + obstacle.half_edges.x;
     let walls = world.obstacles().iter().filter(|it| !it.kind.is_ground());
@@ -383,5 +387,5 @@ fn end(ending: Ending, world: &World) -> Result<(End, Option<PastObstacles>), Cr
         .ok_or_else(|| CrawlSetupError::NothingToPass {
             scene: world.scene().name.clone(),
         })?;
-    Ok((End::Past { x, at_most }, Some(PastObstacles { x })))
+    Ok((End::Past { x, bound }, Some(PastObstacles { x })))
 }
