@@ -39,6 +39,14 @@ fn crawl_run(args: &CrawlRunArgs) -> Result<Plan, Failure> {
     })
 }
 
+/// How often something was touched, in words.
+fn times(count: usize) -> String {
+    match count {
+        1 => "touched an obstacle once".to_owned(),
+        _ => format!("touched obstacles {count} times"),
+    }
+}
+
 /// A crawl that was to end past its obstacles did not, or it touched what it was not to touch.
 pub(crate) fn shortfall(outcome: &CrawlOutcome, on_contact: OnContact) -> Result<(), Failure> {
     let summary = &outcome.summary;
@@ -51,9 +59,9 @@ pub(crate) fn shortfall(outcome: &CrawlOutcome, on_contact: OnContact) -> Result
     }
     if on_contact == OnContact::Fail && summary.plate_contacts > 0 {
         return Err(Failure::Work(anyhow!(
-            "{} touched what --fail-on-contact says it should not, {} times",
+            "{} {}, which --fail-on-contact takes for a failure",
             summary.gait,
-            summary.plate_contacts
+            times(summary.plate_contacts)
         )));
     }
     Ok(())

@@ -142,10 +142,6 @@ fn of_crawl(error: CrawlSetupError) -> Failure {
 }
 
 fn of_scene(error: SceneError) -> Failure {
-    if let SceneError::TakenForMetres { value, meant, .. } = error {
-        let [value, meant] = [value, meant].map(|metres| (metres * 1e12).round() / 1e9);
-        return Failure::Input(anyhow!("--ceiling-mm {value}: did you mean {meant}?"));
-    }
     let SceneError::OutOfBounds {
         quantity,
         value,
@@ -157,7 +153,6 @@ fn of_scene(error: SceneError) -> Failure {
         return Failure::input(error);
     };
     let (option, unit) = match quantity {
-        Quantity::Height => ("--ceiling-mm", 1e3),
         Quantity::Length => ("--length-m", 1.0),
         Quantity::Slope => ("--slope-deg", 1_f64.to_degrees()),
         Quantity::LeftFriction => ("--friction-left", 1.0),

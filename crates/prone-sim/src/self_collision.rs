@@ -12,7 +12,7 @@
 //! are neighbours where one is the other's parent, or where any shape of one touches a shape of the
 //! other with every joint at zero: on most models the two sides of a joint overlap there by design,
 //! and would in most postures. On the NAO these are, beside parents: head and trunk, trunk and thighs,
-//! pelvis and thighs, shins and feet, upper arms and forearms. What remains overlaps in less than one
+//! pelvis and thighs, shins and feet, upper arms and forearms. A pair that remains overlaps in less than one
 //! in twenty of all postures within the stops, evenly drawn.
 //!
 //! The engine measures ([`MjData::geom_distance`]), whatever a shape may touch. Between spheres and
@@ -220,8 +220,8 @@ impl SelfCollision {
                 continue;
             }
             let distance = self.distance(self.pairs[pair]);
-            let is_first = distance == best.distance && pair < best.pair;
-            if distance < best.distance || is_first {
+            let order = distance.total_cmp(&best.distance);
+            if order.then(pair.cmp(&best.pair)).is_lt() {
                 best = Found {
                     distance,
                     pair,

@@ -119,7 +119,10 @@ fn cycles_are_planned_alike_on_the_compiled_nao() {
         if compiled == **loaded.robot() {
             assert_eq!(ours, theirs, "{name}");
         }
-        let (ours, theirs) = (ours.pull().samples(), theirs.pull().samples());
+        let (ours, theirs) = (
+            ours.pull().unwrap().samples(),
+            theirs.pull().unwrap().samples(),
+        );
         assert_eq!(ours.len(), theirs.len(), "{name}");
         for (ours, theirs) in ours.iter().zip(theirs) {
             for (ours, theirs) in ours.joints.pairs(&theirs.joints) {

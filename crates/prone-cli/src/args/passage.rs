@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
+use prone::scene::{LOWEST_CEILING, taken_for_metres};
+
 use super::named::{GaitArgs, RobotArg};
 
 #[derive(Debug, clap::Args)]
@@ -108,21 +110,16 @@ pub(crate) enum AgainstName {
     Heat,
 }
 
-/// A ceiling as typed, mm: one that is lower than any robot was typed in metres.
+/// A ceiling as typed, mm; one that is lower than any robot was typed in metres.
 pub(crate) fn ceiling(text: &str) -> Result<f64, String> {
-    let mm = height(text).or_else(|error| match text.trim().parse() {
-        Ok(mm) if mm > 0.0 && mm < 1.0 => Ok(mm),
-        _ => Err(error),
-    })?;
-    match prone::scene::taken_for_metres(mm / 1e3) {
-        Some(metres) => Err(format!("{mm} mm: did you mean {}?", rounded(metres * 1e3))),
-        None => Ok(mm),
+    let typed: Option<f64> = text.trim().parse().ok();
+    let meant = |mm: f64| Some((mm, taken_for_metres(mm / 1e3)? * 1e3));
+    if let Some((mm, meant)) = typed.and_then(meant) {
+        // Without the digits that a conversion makes up.
+        let meant = (meant * 1e9).round() / 1e9;
+        return Err(format!("{mm} mm: did you mean {meant}?"));
     }
-}
-
-/// Without the digits that a conversion makes up.
-fn rounded(number: f64) -> f64 {
-    (number * 1e9).round() / 1e9
+    within(text, LOWEST_CEILING * 1e3, 10_000.0)
 }
 
 /// A height as typed, mm: above nothing, below any room.

@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use super::Run;
 use crate::view::record::not_simulated;
+use prone_record::crawl_outcome::SelfCollisionSummary;
 use prone_record::crawl_summary::{MotorSummary, ReasonSummary};
 
 /// A joint with a smaller share of the heat is not listed by itself.
@@ -160,7 +161,10 @@ impl Card {
             passage_over_standing: standing.map(|height| highest_mm / height),
             outcome: summary.outcome.as_ref().map(|it| it.sentence.clone()),
             width_mm: summary.width_mm,
-            nearest_parts: summary.self_collision.as_ref().map(|it| it.in_words()),
+            nearest_parts: summary
+                .self_collision
+                .as_ref()
+                .map(SelfCollisionSummary::in_words),
             plate_contacts: summary.plate_contacts,
             cost_of_transport_mechanical: summary.cost_of_transport,
             cost_of_transport_electrical_estimated: summary.electrical_cost_of_transport,

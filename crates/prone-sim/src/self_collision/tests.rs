@@ -63,7 +63,8 @@ fn regression_shipped_postures() {
         ("stand", 19.207, "Chest", "LUpperArm"),
         ("stand-init", 20.300, "Chest", "LUpperArm"),
         ("stand-zero", 19.337, "Chest", "LUpperArm"),
-        // Upper arms begin 110 mm from the middle and are 27 mm thick; the chest is 63 mm wide there.
+        // Upper arms begin 110 mm from the middle, 27 mm thick; the chest reaches to 59 mm at their height and
+        // to 70 mm lower down: between 13 and 24 mm.
         ("zero", 19.244, "Chest", "LUpperArm"),
     ] {
         let angles = world.robot().postures.get(name).unwrap_or(&zero);

@@ -7,7 +7,7 @@ use super::{Legs, Plate, Scene};
 /// The largest extent or distance, m: beyond it a number was typed in another unit.
 const LARGEST: f64 = 100.0;
 /// The lowest ceiling, m: the thinnest robot that lies down is higher.
-const LOWEST_CEILING: f64 = 0.01;
+pub const LOWEST_CEILING: f64 = 0.01;
 /// The smallest extent, m: below it the engine's contacts see nothing.
 const SMALLEST: f64 = 1e-4;
 /// The steepest floor or ramp, rad.
