@@ -41,6 +41,12 @@ def main() -> None:
     summary = json.loads((folder / "summary.json").read_text())
     assert summary["arrived"], "it did not get past the plate"
     assert summary["plate_contacts"] == 0, summary["contacts"]
+    outcome = summary["outcome"]
+    assert outcome["passed"] and not outcome["touched"], outcome
+    assert outcome["largest_contact_n"] is None, outcome
+    # As wide as its elbows are apart at least, and no wider than a plate.
+    assert 200 < summary["width_mm"] < 1000, summary["width_mm"]
+    assert summary["self_collision"]["distance_mm"] > 0, summary["self_collision"]
     assert abs(summary["lateral_mm"]) < 50, summary["lateral_mm"]
     assert summary["mm_per_cycle"] > 110, summary["mm_per_cycle"]
     steps = sum(cycle["advance_mm"] for cycle in summary["per_cycle"])

@@ -11,7 +11,7 @@ use prone_study::run::CostOutcome;
 
 use crate::Failure;
 use crate::args::optimize::CostArgs;
-use crate::plan::{Plan, Work};
+use crate::plan::{OnContact, Plan, Work};
 use crate::{cycle_search, pull_terms};
 
 pub(crate) fn plan(args: &CostArgs) -> Result<Plan, Failure> {
@@ -34,6 +34,7 @@ pub(crate) fn plan(args: &CostArgs) -> Result<Plan, Failure> {
         opening: Opening::Restart,
         threads: None,
         json: args.json,
+        on_contact: OnContact::Report,
     })
 }
 

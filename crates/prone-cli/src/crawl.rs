@@ -11,7 +11,7 @@ use prone_study::run::CrawlOutcome;
 
 use crate::Failure;
 use crate::args::{CrawlCommand, CrawlRunArgs};
-use crate::plan::{Plan, Work};
+use crate::plan::{OnContact, Plan, Work};
 
 pub(crate) use report::print;
 
@@ -31,18 +31,38 @@ fn crawl_run(args: &CrawlRunArgs) -> Result<Plan, Failure> {
         opening: Opening::Restart,
         threads: args.threads,
         json: args.json,
+        on_contact: if args.fail_on_contact {
+            OnContact::Fail
+        } else {
+            OnContact::Report
+        },
     })
 }
 
-/// A crawl that was to end past its obstacles did not.
-pub(crate) fn shortfall(outcome: &CrawlOutcome) -> Result<(), Failure> {
+/// How often something was touched, in words.
+fn times(count: usize) -> String {
+    match count {
+        1 => "touched an obstacle once".to_owned(),
+        _ => format!("touched obstacles {count} times"),
+    }
+}
+
+/// A crawl that was to end past its obstacles did not, or it touched what it was not to touch.
+pub(crate) fn shortfall(outcome: &CrawlOutcome, on_contact: OnContact) -> Result<(), Failure> {
     let summary = &outcome.summary;
-    match outcome.missed_mm {
-        None => Ok(()),
-        Some(x) => Err(Failure::Work(anyhow!(
+    if let Some(x) = outcome.missed_mm {
+        return Err(Failure::Work(anyhow!(
             "{} is not past x = {x:.0} mm after {} cycles",
             summary.gait,
             summary.cycles
-        ))),
+        )));
     }
+    if on_contact == OnContact::Fail && summary.plate_contacts > 0 {
+        return Err(Failure::Work(anyhow!(
+            "{} {}, which --fail-on-contact takes for a failure",
+            summary.gait,
+            times(summary.plate_contacts)
+        )));
+    }
+    Ok(())
 }

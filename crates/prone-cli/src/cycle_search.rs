@@ -19,7 +19,7 @@ use crate::args::optimize::{OptimizeArgs, SolverName};
 use crate::args::passage::{AgainstName, FrontierArgs};
 use crate::args::pull_terms::{ObjectiveName, PullTermsArgs};
 use crate::gait::find_cycle;
-use crate::plan::{self, Plan, Work};
+use crate::plan::{self, OnContact, Plan, Work};
 
 /// Ceilings, mm, where none are asked for.
 const CEILINGS_MM: [f64; 3] = [165.0, 183.0, 200.0];
@@ -54,6 +54,7 @@ pub(crate) fn frontier(args: &FrontierArgs) -> Result<Plan, Failure> {
         opening: plan::searching(args.resume),
         threads: args.threads,
         json: args.json,
+        on_contact: OnContact::Report,
     })
 }
 

@@ -57,7 +57,7 @@ pub(crate) fn carry_out(plan: &Plan) -> Result<(), Failure> {
     } else {
         done.print(plan, &mut out)?;
     }
-    done.shortfall()
+    done.shortfall(plan)
 }
 
 impl Done {
@@ -128,10 +128,10 @@ impl Done {
         }
     }
 
-    /// What the result is short of: a crawl that was to end past its obstacles did not.
-    fn shortfall(&self) -> Result<(), Failure> {
+    /// What the result is short of: a crawl that was to end past its obstacles did not, or touched one.
+    fn shortfall(&self, plan: &Plan) -> Result<(), Failure> {
         match self {
-            Self::Study(Outcome::Crawl(it)) => crawl::shortfall(it),
+            Self::Study(Outcome::Crawl(it)) => crawl::shortfall(it, plan.on_contact),
             _ => Ok(()),
         }
     }

@@ -12,7 +12,7 @@ use prone_record::gait_search::Outcome;
 use prone_record::search::Solver;
 
 use crate::args::optimize::{EndsName, OptimizeArgs, SolverName};
-use crate::plan::{self, Plan, Work};
+use crate::plan::{self, OnContact, Plan, Work};
 use crate::{Failure, cycle_search, pull_terms};
 
 pub(crate) fn plan(args: &OptimizeArgs) -> Result<Plan, Failure> {
@@ -27,6 +27,7 @@ pub(crate) fn plan(args: &OptimizeArgs) -> Result<Plan, Failure> {
         opening: plan::searching(args.resume),
         threads: args.threads,
         json: args.json,
+        on_contact: OnContact::Report,
     })
 }
 

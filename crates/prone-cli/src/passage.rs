@@ -10,7 +10,7 @@ use prone_study::search::passage::{Candidate, Passage};
 
 use crate::args::passage::UnderArgs;
 use crate::gait::find_cycle;
-use crate::plan::{Plan, Work};
+use crate::plan::{OnContact, Plan, Work};
 use crate::{Failure, record_folder};
 
 /// What was typed, with the texts of the cycles: those that are named, or else those that the robot's
@@ -59,6 +59,7 @@ pub(crate) fn plan(args: &UnderArgs) -> Result<Plan, Failure> {
         opening: Opening::Restart,
         threads: args.threads,
         json: args.json,
+        on_contact: OnContact::Report,
     })
 }
 

@@ -15,6 +15,17 @@ pub(crate) struct Plan {
     pub(crate) opening: Opening,
     pub(crate) threads: Option<u16>,
     pub(crate) json: bool,
+    /// What a crawl that touches an obstacle is.
+    pub(crate) on_contact: OnContact,
+}
+
+/// What a crawl is that touches a plate, a leg of one or a panel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum OnContact {
+    /// A result like others.
+    Report,
+    /// A failure of the work; its record is written all the same.
+    Fail,
 }
 
 /// Something that can be run.

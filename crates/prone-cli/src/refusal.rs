@@ -170,7 +170,6 @@ fn of_scene(error: SceneError) -> Failure {
         return Failure::input(error);
     };
     let (option, unit) = match quantity {
-        Quantity::Height => ("--ceiling-mm", 1e3),
         Quantity::Length => ("--length-m", 1.0),
         Quantity::Slope => ("--slope-deg", 1_f64.to_degrees()),
         Quantity::LeftFriction => ("--friction-left", 1.0),

@@ -11,7 +11,7 @@ use prone_thesis::summary::{CostRow, RatioRow, Summary};
 
 use crate::Failure;
 use crate::args::ReproduceArgs;
-use crate::plan::{Plan, Work};
+use crate::plan::{OnContact, Plan, Work};
 
 pub(crate) fn plan(args: &ReproduceArgs) -> Result<Plan, Failure> {
     let files = crate::robot::files(args.robot.name())?;
@@ -25,6 +25,7 @@ pub(crate) fn plan(args: &ReproduceArgs) -> Result<Plan, Failure> {
         opening: Opening::Restart,
         threads: args.threads,
         json: args.json,
+        on_contact: OnContact::Report,
     })
 }
 

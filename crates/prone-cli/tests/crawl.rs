@@ -145,12 +145,73 @@ fn plates_are_touched_or_passed() {
     ]);
     assert_eq!(passed["arrived"], true);
     assert_eq!(passed["plate_contacts"], 0);
+    let outcome = &passed["outcome"];
+    assert_eq!(
+        (&outcome["passed"], &outcome["touched"]),
+        (&true.into(), &false.into())
+    );
+    assert_eq!(outcome["largest_contact_n"], Value::Null);
+    let outcome = &low["outcome"];
+    assert_eq!(
+        (&outcome["passed"], &outcome["touched"]),
+        (&Value::Null, &true.into())
+    );
+    let forces = contacts.iter().map(|contact| number(contact, "peak_n"));
+    assert_eq!(
+        outcome["largest_contact_n"].as_f64(),
+        forces.reduce(f64::max)
+    );
     // Robot and plate: some 0.6 m and 0.25 m.
     assert!(
         (600.0..1200.0).contains(&number(&passed, "distance_mm")),
         "{passed}"
     );
     assert!(number(&passed, "lateral_mm").abs() < 50.0);
+}
+
+/// A touch is a failure where that is asked for, with its record in place; without one nothing fails.
+#[test]
+fn a_touch_may_be_a_failure() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path().join("record");
+    let run = |ceiling_mm: &str| {
+        let typed =
+            "crawl run --gait low-175 --length-m 0.3 --cycles 1 --fail-on-contact --ceiling-mm";
+        let mut typed: Vec<&str> = typed.split(' ').collect();
+        typed.extend([ceiling_mm, "--record", folder.to_str().unwrap()]);
+        prone(&typed)
+    };
+    let touching = run("140");
+    let message = String::from_utf8_lossy(&touching.stderr);
+    assert_eq!(touching.status.code(), Some(1), "{message}");
+    assert!(
+        message.contains("--fail-on-contact takes for a failure"),
+        "{message}"
+    );
+    let printed = String::from_utf8_lossy(&touching.stdout);
+    assert!(
+        printed.lines().next().unwrap().contains("hit plate 1 with"),
+        "{printed}"
+    );
+    let written = fs::read_to_string(folder.join("summary.json")).unwrap();
+    let written: Value = serde_json::from_str(&written).unwrap();
+    assert_eq!(written["outcome"]["touched"], true);
+    assert_eq!(run("250").status.code(), Some(0));
+}
+
+/// A bound of the user ends a crawl that would get there.
+#[test]
+fn limit_a_crawl_past_obstacles_ends_after_its_bound() {
+    let typed =
+        "crawl run --gait low-175 --ceiling-mm 190 --length-m 1 --until-past --cycles 2 --json";
+    let typed: Vec<&str> = typed.split(' ').collect();
+    let done = prone(&typed);
+    assert_eq!(done.status.code(), Some(1));
+    let run: Value = serde_json::from_slice(&done.stdout).unwrap();
+    assert_eq!(
+        (&run["cycles"], &run["arrived"]),
+        (&2.into(), &false.into())
+    );
 }
 
 #[test]

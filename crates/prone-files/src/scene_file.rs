@@ -85,6 +85,17 @@ fn refuse(source: Source<'_>, error: SceneError) -> FileError {
             let message = format!("{key} = {value} is outside {lowest} to {highest}{reason}");
             (item, quantity, message)
         }
+        SceneError::TakenForMetres {
+            item,
+            quantity,
+            value,
+            meant,
+        } => {
+            let [value, meant] = [value, meant].map(|number| in_file(quantity, number));
+            let key = tables::key(quantity);
+            let message = format!("{key} = {value}: did you mean {meant}?");
+            (item, quantity, message)
+        }
         SceneError::TooManyPoints { spacing, points } => {
             let spacing = in_file(Quantity::Spacing, spacing);
             let most = prone::scene::MOST_POINTS;

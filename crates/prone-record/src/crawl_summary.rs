@@ -5,6 +5,8 @@ use serde::{Deserialize, Serialize};
 use prone::gait::Clamp;
 use prone::robot::{BodyPart, Robot, Tops};
 
+use crate::crawl_outcome::{OutcomeSummary, SelfCollisionSummary};
+
 /// What came out of a crawl.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CrawlSummary {
@@ -16,6 +18,8 @@ pub struct CrawlSummary {
     pub scene: String,
     /// How many cycles were crawled.
     pub cycles: usize,
+    /// Whether it came through and what it touched; nothing in a record of an earlier version.
+    pub outcome: Option<OutcomeSummary>,
     /// Whether it got past the obstacles, where that was asked for.
     pub arrived: Option<bool>,
     /// Displacement of the root along the heading of the start, mm.
@@ -43,6 +47,12 @@ pub struct CrawlSummary {
     pub contacts: Vec<PlateContact>,
     /// Highest points above the floor, mm.
     pub top_mm: TopsMm,
+    /// The widest the robot gets: its largest extents to the left and to the right of the line through
+    /// its root along its own heading, together, mm; nothing where that was not recorded.
+    pub width_mm: Option<f64>,
+    /// The two of its parts that came nearest to one another, neighbours apart; nothing where that was
+    /// not recorded, or of a robot with no two parts to compare.
+    pub self_collision: Option<SelfCollisionSummary>,
     /// Advance of the shoulder in the planned closed chain, mm; nothing of a cycle without a pull.
     pub stride_mm: Option<f64>,
     /// Advance of a pull over that stride; nothing where the plan does not lead forward.

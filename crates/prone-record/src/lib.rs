@@ -6,6 +6,7 @@
 
 pub mod broken_table;
 pub mod contact_story;
+pub mod crawl_outcome;
 pub mod crawl_summary;
 pub mod crawl_tables;
 pub mod curves_info;

@@ -7,14 +7,18 @@
 //! follows something, or is followed by something, is [`crawler`], [`lie_down`] where the robot does
 //! not lie yet, and [`proceed`], which hands the robot back.
 
+mod extent;
 mod ground;
 mod limbs;
 mod measure;
+mod pace;
 mod touch;
 
+pub use extent::{NearestParts, Sides};
 pub use ground::GroundLoad;
 pub use limbs::{LimbsError, check_limbs};
 pub use measure::{Advance, CycleRow, Row};
+pub use pace::{Bound, MOST_CYCLES, WATCHED};
 pub use touch::Touch;
 
 use glam::DVec3;
@@ -34,6 +38,7 @@ use crate::pull::SETTLE;
 use crate::simulation::{Placement, Simulation, SimulationError, Snapshot};
 use crate::world::World;
 use measure::Meter;
+use pace::{Pace, Reached};
 
 /// Last part of settling in which a pilot's senses are on, s.
 const FELT_AT_REST: f64 = 0.3;
@@ -67,12 +72,13 @@ pub struct CrawlPlan {
 pub enum End {
     /// After that many cycles.
     Cycles(usize),
-    /// After the cycle in which the robot's last point has passed x, m; or after that many cycles.
+    /// After the cycle in which the robot's last point has passed x, m; or where it does not get
+    /// there.
     Past {
         /// Where, m.
         x: f64,
-        /// How many at most.
-        at_most: usize,
+        /// How long it may take.
+        bound: Bound,
     },
 }
 
@@ -113,6 +119,11 @@ pub struct Crawl {
     pub ground: GroundLoad,
     /// The highest points by part of the body.
     pub tops: Tops,
+    /// How far it reached to either side of its own heading, by its rows.
+    pub sides: Sides,
+    /// The two of its parts that came nearest to one another, by its rows; nothing of a robot with
+    /// no two parts to compare.
+    pub nearest: Option<NearestParts>,
     /// What it bumped into, by part of the robot, then by obstacle.
     pub touches: Vec<Touch>,
     /// Joints whose calibration error was stopped at a stop.
@@ -195,11 +206,10 @@ pub fn crawler<P: Pilot>(
     begin: Begin,
     pilot: P,
 ) -> Result<Crawler<P>, CrawlError> {
-    let (End::Cycles(most_cycles)
-    | End::Past {
-        at_most: most_cycles,
-        ..
-    }) = plan.end;
+    let most_cycles = match plan.end {
+        End::Cycles(cycles) => cycles,
+        End::Past { bound, .. } => bound.most_cycles(),
+    };
     let tick = world.regime().time_step;
     // A coarser simulation than the robot's own clock commands at every step.
     let every = world.robot().control.command_step.max(tick);
@@ -257,7 +267,10 @@ pub fn proceed<P: Pilot>(
 ) -> Result<(Crawl, SimulatedRobot), CrawlError> {
     let mut metered = Metered {
         meter: Meter::new(robot.simulation(), plan.detail),
-        end: plan.end,
+        pace: match plan.end {
+            End::Cycles(_) => None,
+            End::Past { x, bound } => Some(Pace::new(x, bound, rear(robot.simulation()))),
+        },
         on_touch: plan.on_touch,
         stopped,
         was_stopped: false,
@@ -306,7 +319,8 @@ fn in_simulation((cycle, gait): (usize, String), error: PortError) -> CrawlError
 /// Measures a crawl, and says when it is over.
 struct Metered<'a> {
     meter: Meter,
-    end: End,
+    /// Of a crawl that is to get past something.
+    pace: Option<Pace>,
     on_touch: OnTouch,
     stopped: &'a dyn Fn() -> bool,
     was_stopped: bool,
@@ -327,11 +341,13 @@ impl<P: Pilot> Watch<SimulatedRobot, P> for Metered<'_> {
         if self.on_touch == OnTouch::End && self.meter.has_touched() {
             return Some(Halt::AtOnce);
         }
-        let End::Past { x, .. } = self.end else {
+        let pace = self.pace.as_mut()?;
+        if !crawler.cycle_ends_at(senses.time) {
             return None;
-        };
-        self.arrived = crawler.cycle_ends_at(senses.time) && rear(robot.simulation()) > x;
-        self.arrived.then_some(Halt::AfterCycle)
+        }
+        let reached = pace.cycle_ended(rear(robot.simulation()));
+        self.arrived = reached == Reached::Past;
+        (reached != Reached::OnTheWay).then_some(Halt::AfterCycle)
     }
 
     fn ticked(&mut self, robot: &SimulatedRobot, crawler: &Crawler<P>, _: &JointCommand) {

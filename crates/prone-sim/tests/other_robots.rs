@@ -21,7 +21,7 @@ fn limit_a_plan_needs_one_stop_for_each_joint() {
     let mut few = robot.stops();
     few.pop();
     let duration = PhaseDuration::new(1.0).unwrap();
-    let refused = CheckedTrajectory::plan(&robot, &few, &cycle.pull, duration, 10);
+    let refused = CheckedTrajectory::plan(&robot, &few, &cycle.gait().unwrap(), duration, 10);
     let message = "gait low-175: 23 stops are given, robot NAO H25 V4 has 24 joints";
     assert_eq!(refused.unwrap_err().to_string(), message);
     let refused = CheckedCycle::plan(&robot, &few, &cycle, 0.0, TimeScale::ONE);

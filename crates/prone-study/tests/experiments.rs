@@ -445,7 +445,7 @@ fn a_search_of_cycles_that_was_sent() {
         (vec![1.0], "a margin of 1 mm leaves no room"),
         (
             vec![f64::NAN],
-            "a ceiling of NaN mm is outside 1 to 10000 mm",
+            "a ceiling of NaN mm is outside 10 to 10000 mm",
         ),
     ] {
         let said = refused(Under::Across {

@@ -143,14 +143,17 @@ impl TableStudy {
 }
 
 impl TableExperiment {
-    /// With what it touched what, in words.
+    /// With what it touched what, and with which largest force, in words.
     pub fn touched(&self) -> String {
         if self.ours.contacts.is_empty() {
             return "touched nothing".to_owned();
         }
         let touched = self.ours.contacts.iter();
         let parts: Vec<String> = touched
-            .map(|contact| format!("{} with {}", contact.obstacle, contact.body))
+            .map(|contact| {
+                let (obstacle, body, peak_n) = (&contact.obstacle, &contact.body, contact.peak_n);
+                format!("{obstacle} with {body} (up to {peak_n:.0} N)")
+            })
             .collect();
         format!("touched {}", parts.join(", "))
     }

@@ -10,7 +10,7 @@ mod contact;
 mod obstacle;
 mod rough;
 
-pub use check::{Item, MOST_POINTS, Quantity, SceneError};
+pub use check::{Item, LOWEST_CEILING, MOST_POINTS, Quantity, SceneError, taken_for_metres};
 pub use contact::{ContactForce, obstacle_name};
 pub use obstacle::{Obstacle, ObstacleKind};
 pub use rough::{Heights, Roughness};

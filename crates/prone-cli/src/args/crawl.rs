@@ -49,12 +49,16 @@ pub(crate) struct CrawlRunArgs {
     /// robot.toml (NAO 1.5°) by its inertial unit, whose noise --seed draws
     #[arg(long, value_name = "GAIT", requires = "seed")]
     pub(crate) uphill: Option<String>,
-    /// How many cycles [default: 9]
+    /// How many cycles, with --until-past at most [default: 9]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub(crate) cycles: Option<u16>,
-    /// End when the whole robot is past the plates and panels of the scene; fails after 60 cycles
-    #[arg(long, conflicts_with = "cycles")]
+    /// End when the whole robot is past the plates and panels of the scene. Fails after --cycles N;
+    /// without it, when the pace of the last 20 cycles does not lead past them within 1000
+    #[arg(long)]
     pub(crate) until_past: bool,
+    /// Exit with code 1 where a plate, a leg of one or a panel was touched; the record is written all the same
+    #[arg(long)]
+    pub(crate) fail_on_contact: bool,
     /// A scene that ships with prone (plate-200, table, …) or a scene file [default: a level floor]
     #[arg(long, value_name = "SCENE")]
     pub(crate) scene: Option<String>,
@@ -64,6 +68,7 @@ pub(crate) struct CrawlRunArgs {
         value_name = "H",
         requires = "length_m",
         conflicts_with = "scene",
+        value_parser = super::passage::ceiling,
         allow_negative_numbers = true
     )]
     pub(crate) ceiling_mm: Option<f64>,

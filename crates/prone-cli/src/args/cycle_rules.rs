@@ -9,7 +9,7 @@ use prone_record::frontier::Quantity;
 #[derive(Debug, Default, clap::Args)]
 pub(crate) struct CycleRulesArgs {
     /// cycle: height below which everything stays, mm [default: none]
-    #[arg(long, value_name = "H", value_parser = super::passage::height, allow_negative_numbers = true)]
+    #[arg(long, value_name = "H", value_parser = super::passage::ceiling, allow_negative_numbers = true)]
     pub(crate) ceiling_mm: Option<f64>,
     /// cycle: only cycles that can be steered, as in `prone crawl frontier --steerable`
     #[arg(long)]

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
+use prone::scene::{LOWEST_CEILING, taken_for_metres};
 use prone_record::experiment::{CycleSearchExperiment, PassageExperiment};
 use prone_record::frontier::Quantity;
 
@@ -26,7 +27,7 @@ passes as everything is in the model, which is said. Where none passes and a see
 searched. The exit code is 0 for every answer.")]
 pub(crate) struct UnderArgs {
     /// Height of the ceiling above the floor, mm
-    #[arg(long, value_name = "H", value_parser = height, allow_negative_numbers = true)]
+    #[arg(long, value_name = "H", value_parser = ceiling, allow_negative_numbers = true)]
     pub(crate) ceiling_mm: f64,
     /// Length of the plate along the way, m
     #[arg(long, value_name = "L", default_value = "1.2", value_parser = length, allow_negative_numbers = true)]
@@ -81,7 +82,7 @@ pub(crate) struct FrontierArgs {
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = value, allow_negative_numbers = true, conflicts_with = "ceilings_mm")]
     pub(crate) at: Vec<f64>,
     /// Ceilings, mm: --at where ceilings are held
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = height, allow_negative_numbers = true)]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = ceiling, allow_negative_numbers = true)]
     pub(crate) ceilings_mm: Vec<f64>,
     /// What is searched under each ceiling, in place of --of
     #[arg(long, value_enum, conflicts_with = "of")]
@@ -143,16 +144,21 @@ pub(crate) enum AgainstName {
     Heat,
 }
 
-/// A height as typed, mm: above nothing, below any room. What looks like metres is asked about.
-pub(crate) fn height(text: &str) -> Result<f64, String> {
-    let number = within(text, 0.01, 10_000.0)?;
-    if number < 10.0 {
-        let metres = (number * 1e6).round() / 1e3;
-        return Err(format!(
-            "{number} mm is no height to crawl under; {number} m would be {metres}"
-        ));
+/// A ceiling as typed, mm; one that is lower than any robot was typed in metres.
+pub(crate) fn ceiling(text: &str) -> Result<f64, String> {
+    let typed: Option<f64> = text.trim().parse().ok();
+    let meant = |mm: f64| Some((mm, taken_for_metres(mm / 1e3)? * 1e3));
+    if let Some((mm, meant)) = typed.and_then(meant) {
+        // Without the digits that a conversion makes up.
+        let meant = (meant * 1e9).round() / 1e9;
+        return Err(format!("{mm} mm: did you mean {meant}?"));
     }
-    Ok(number)
+    within(text, LOWEST_CEILING * 1e3, 10_000.0)
+}
+
+/// A height as typed, mm: above nothing, below any room.
+pub(crate) fn height(text: &str) -> Result<f64, String> {
+    within(text, 1.0, 10_000.0)
 }
 
 fn length(text: &str) -> Result<f64, String> {

@@ -32,7 +32,7 @@ pub(super) fn of(args: &CrawlRunArgs) -> Result<CrawlExperiment, Failure> {
         uphill: args.uphill.as_deref().map(find).transpose()?,
         scene: scene(args)?,
         ending: if args.until_past {
-            Ending::PastObstacles(CrawlExperiment::MOST_CYCLES)
+            Ending::PastObstacles(args.cycles.map(usize::from))
         } else {
             Ending::Cycles(args.cycles.map_or(CrawlExperiment::CYCLES, usize::from))
         },

@@ -8,24 +8,26 @@ use prone_record::crawl_summary::{CrawlSummary, PlateContact, ReasonSummary};
 
 pub(crate) fn print(summary: &CrawlSummary, out: &mut dyn Write) -> Result<()> {
     let s = summary;
+    let sentence = s.outcome.as_ref().map(|outcome| &*outcome.sentence);
     writeln!(
         out,
-        "{} on {}, scene {}: {} cycles in {:.1} s{}",
+        "{} on {}, scene {}: {}",
         s.gait,
         s.robot,
         s.scene,
-        s.cycles,
-        s.time_s,
-        match s.arrived {
-            Some(true) => ", past the obstacles",
-            Some(false) => ", not past the obstacles",
-            None => "",
-        }
+        sentence.unwrap_or("unknown")
     )?;
     writeln!(
         out,
-        "  path {:.1} mm: {:.1} mm per cycle, {:.1} mm/s; {:.1} mm ahead, {:+.1} mm to the left, heading {:+.1}°",
-        s.path_mm, s.mm_per_cycle, s.mm_per_s, s.distance_mm, s.lateral_mm, s.yaw_deg
+        "  {} cycles in {:.1} s, path {:.1} mm: {:.1} mm per cycle, {:.1} mm/s; {:.1} mm ahead, {:+.1} mm to the left, heading {:+.1}°",
+        s.cycles,
+        s.time_s,
+        s.path_mm,
+        s.mm_per_cycle,
+        s.mm_per_s,
+        s.distance_mm,
+        s.lateral_mm,
+        s.yaw_deg
     )?;
     match s.stride_mm {
         Some(stride_mm) => print_pull(s, stride_mm, out)?,
@@ -40,6 +42,13 @@ pub(crate) fn print(summary: &CrawlSummary, out: &mut dyn Write) -> Result<()> {
         .map(|(part, top)| format!(" {} {top:.1}", part.name()))
         .collect();
     writeln!(out, "  highest points, mm:{}", tops.concat())?;
+    if let Some(width_mm) = s.width_mm {
+        writeln!(out, "  width {width_mm:.1} mm, about its own heading")?;
+    }
+    let nearest = s.self_collision.iter();
+    for collision in nearest.filter(|nearest| nearest.is_collision()) {
+        writeln!(out, "  goes through itself: {}", collision.in_words())?;
+    }
     print_motors(s, out)?;
     print_touched_and_stopped(s, out)
 }

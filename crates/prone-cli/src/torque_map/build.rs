@@ -11,7 +11,7 @@ use prone_study::torque_map::build::Summary;
 
 use crate::Failure;
 use crate::args::{BuildArgs, SourceArg};
-use crate::plan::{self, Plan, Work};
+use crate::plan::{self, OnContact, Plan, Work};
 
 pub(crate) fn plan(args: &BuildArgs) -> Result<Plan, Failure> {
     let files = crate::robot::files(args.robot.name())?;
@@ -37,6 +37,7 @@ pub(crate) fn plan(args: &BuildArgs) -> Result<Plan, Failure> {
         opening: plan::searching(!args.restart),
         threads: args.threads,
         json: args.json,
+        on_contact: OnContact::Report,
     })
 }
 

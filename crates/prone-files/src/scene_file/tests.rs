@@ -123,6 +123,7 @@ fn numbers_out_of_bounds_point_at_the_place() {
     assert_snapshot!(changed("start_mm = 50", "start_mm = -20"), @"scene.toml:17:12: start_mm = -20 is outside 0 to 100000: what begins before 0 stands in the robot's starting place");
     assert_snapshot!(changed("length_mm = 1500", "length_mm = 1500000"), @"scene.toml:18:13: length_mm = 1500000 is outside 40 to 100000");
     assert_snapshot!(changed("height_mm = 200", "height_mm = -200"), @"scene.toml:19:13: height_mm = -200 is outside 0.1 to 100000");
+    assert_snapshot!(changed("height_mm = 200", "height_mm = 0.19"), @"scene.toml:19:13: height_mm = 0.19: did you mean 190?");
     assert_snapshot!(changed("height_mm = 200", "height_mm = nan"), @"scene.toml:19:13: height_mm = NaN is outside 0.1 to 100000");
     assert_snapshot!(changed("thickness_mm = 30", "thickness_mm = 0"), @"scene.toml:26:16: thickness_mm = 0 is outside 0.1 to 100000");
     assert_snapshot!(changed("width_mm = 700", "width_mm = inf"), @"scene.toml:24:12: width_mm = inf is outside 0.1 to 100000");

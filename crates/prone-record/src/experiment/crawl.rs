@@ -83,8 +83,9 @@ pub struct SceneChoice {
 pub enum Ending {
     /// After so many cycles.
     Cycles(usize),
-    /// When the whole robot is past the obstacles of the scene, or after so many cycles.
-    PastObstacles(usize),
+    /// When the whole robot is past the obstacles of the scene, or after so many cycles; where nothing
+    /// is said, as long as its pace leads past them within the most that a crawl may have.
+    PastObstacles(Option<usize>),
 }
 
 /// How a crawl is steered.
@@ -161,9 +162,6 @@ impl CrawlExperiment {
 
     /// Rests after a cycle, s.
     pub const REST_BOUNDS_S: (f64, f64) = (0.0, 600.0);
-
-    /// How many cycles a robot has to get past its obstacles.
-    pub const MOST_CYCLES: usize = 60;
 
     /// A cycle on a level floor, as the command line has it where nothing else is said.
     pub fn new(robot: RobotText, gait: GaitText) -> Self {

@@ -245,7 +245,9 @@ impl CycleRulesChoice {
 
 /// Checks a ceiling and a margin, mm.
 pub fn check_heights(ceiling_mm: f64, margin_mm: f64) -> Result<(), Limit> {
-    Limit::check("a ceiling", " mm", ceiling_mm, CycleRulesChoice::LENGTHS_MM)?;
+    let (_, highest) = CycleRulesChoice::LENGTHS_MM;
+    let bounds = (prone::scene::LOWEST_CEILING * 1e3, highest);
+    Limit::check("a ceiling", " mm", ceiling_mm, bounds)?;
     Limit::check("a margin", " mm", margin_mm, (0.0, 1e3))
 }
 

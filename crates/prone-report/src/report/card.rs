@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use super::Run;
 use crate::view::record::not_simulated;
+use prone_record::crawl_outcome::SelfCollisionSummary;
 use prone_record::crawl_summary::{MotorSummary, ReasonSummary};
 
 /// A joint with a smaller share of the heat is not listed by itself.
@@ -49,6 +50,12 @@ pub struct Card {
     pub highest_part: &'static str,
     /// That height over the standing height.
     pub passage_over_standing: Option<f64>,
+    /// Whether it came through and what it touched, in words; nothing in an earlier record.
+    pub outcome: Option<String>,
+    /// The widest the robot gets, mm, where that was recorded.
+    pub width_mm: Option<f64>,
+    /// The two of its parts that came nearest to one another, in words, where that was recorded.
+    pub nearest_parts: Option<String>,
     /// How often it met a plate, its legs or a panel.
     pub plate_contacts: usize,
     /// Positive work of the motors at the joints over weight times distance.
@@ -152,6 +159,12 @@ impl Card {
             lowest_passage_mm: highest_mm,
             highest_part: highest_part.name(),
             passage_over_standing: standing.map(|height| highest_mm / height),
+            outcome: summary.outcome.as_ref().map(|it| it.sentence.clone()),
+            width_mm: summary.width_mm,
+            nearest_parts: summary
+                .self_collision
+                .as_ref()
+                .map(SelfCollisionSummary::in_words),
             plate_contacts: summary.plate_contacts,
             cost_of_transport_mechanical: summary.cost_of_transport,
             cost_of_transport_electrical_estimated: summary.electrical_cost_of_transport,

@@ -29,7 +29,10 @@ pub(super) fn all(cards: &[Card], crawled: Option<&str>) -> Markup {
 /// A line of the table: what it says, and its value for a card.
 type Line = (&'static str, fn(&Card) -> String);
 
-const LINES: [Line; 18] = [
+const LINES: [Line; 21] = [
+    ("outcome", |card| {
+        card.outcome.clone().unwrap_or_else(|| "–".to_owned())
+    }),
     ("path, time", |card| {
         let (path, time, cycles) = (card.path_mm, card.time_s, card.cycles);
         format!("{path:.0} mm, {time:.1} s, {cycles} cycles")
@@ -50,6 +53,12 @@ const LINES: [Line; 18] = [
     }),
     ("lowest passage over standing height", |card| {
         optional(card.passage_over_standing, |value| format!("{value:.2}"))
+    }),
+    ("width", |card| {
+        optional(card.width_mm, |value| format!("{value:.0} mm"))
+    }),
+    ("nearest of its own parts", |card| {
+        card.nearest_parts.clone().unwrap_or_else(|| "–".to_owned())
     }),
     ("met plates or panels", |card| match card.plate_contacts {
         0 => "never".to_owned(),
@@ -128,7 +137,9 @@ fn figures(cards: &[Card]) -> Markup {
         div.scroll { table {
             caption {
                 "Path: sum of the cycles' advances, each along its own heading; all rates are over it. \
-                 Lowest passage: highest point of any part in the whole run. Stride efficiency: advance \
+                 Lowest passage: highest point of any part in the whole run. Width: largest \
+                 extent to the left and to the right of the robot's own heading together. Nearest of its own \
+                 parts: of the measured postures every 20 ms, but those of neighbours. Stride efficiency: advance \
                  of a pull, and of a whole cycle, over the stride of the planned chain. Cost of transport: positive work of \
                  the motors at the joints over weight times distance; electrical adds what the windings \
                  lose, τ² ω₀ / τ_stall from the manufacturer's motor figures, "

@@ -1,4 +1,4 @@
-//! Whether limbs would go through one another in a cycle's plan.
+//! Whether parts of the robot would go through one another in a cycle's plan.
 
 use prone::gait::cycle::{CheckedCycle, CycleError};
 use prone::robot::JointAngles;
@@ -6,18 +6,18 @@ use prone::robot::JointAngles;
 use crate::self_collision::{SelfCollision, SelfCollisionError};
 use crate::world::World;
 
-/// Time between two postures that are looked at for limbs in one another, s.
+/// Time between two postures that are looked at for parts in one another, s.
 const LIMB_STEP: f64 = 0.02;
-/// How deep limbs may be in one another, m.
+/// How deep parts may be in one another, m.
 const DEEP: f64 = 1e-3;
 
-/// Why the limbs of a cycle do not keep clear of one another.
+/// Why the parts of the robot do not keep clear of one another in a cycle.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum LimbsError {
     /// The way back cannot be planned.
     #[error(transparent)]
     Cycle(#[from] CycleError),
-    /// Two limbs would go through one another, which the simulation does not keep them from.
+    /// Two parts would go through one another, which the simulation does not keep them from.
     #[error(
         "cycle {cycle}: {} and {} would be {depth_mm:.1} mm in one another, {place}",
         shapes.0, shapes.1
@@ -32,12 +32,12 @@ pub enum LimbsError {
         /// In the pull or the recovery, and when.
         place: String,
     },
-    /// The limbs cannot be compared.
+    /// The parts cannot be compared.
     #[error(transparent)]
     SelfCollision(#[from] SelfCollisionError),
 }
 
-/// Looks whether limbs go through one another in a cycle's plan.
+/// Looks whether parts of the robot go through one another in a cycle's plan.
 ///
 /// # Errors
 /// [`LimbsError::Through`] with the deepest place; a millimetre is not deep, as a model's shapes are

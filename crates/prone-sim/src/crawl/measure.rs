@@ -8,6 +8,7 @@ use prone::robot::{BodyPart, ContactGroup, Drive, JointAngles, Tops};
 use prone::scene::ContactForce;
 use prone::steering::Bearing;
 
+use super::extent::{Nearness, Sides};
 use super::ground::{BodyLoad, GroundLoad};
 use super::touch::Touches;
 use super::{Crawl, Detail, ROW_STEP};
@@ -131,6 +132,7 @@ pub(super) struct Meter {
     /// What has reached the servos last.
     reached: JointAngles,
     touches: Touches,
+    nearness: Nearness,
 }
 
 /// What a command asks of the motors.
@@ -174,6 +176,8 @@ impl Meter {
                 effort: Effort::none(robot),
                 ground: GroundLoad::default(),
                 tops: Tops::NONE,
+                sides: Sides::NONE,
+                nearest: None,
                 touches: Vec::new(),
                 stopped: Vec::new(),
                 rows: Vec::new(),
@@ -182,6 +186,7 @@ impl Meter {
                 engine_steps: 0,
             },
             touches: Touches::new(simulation.world()),
+            nearness: Nearness::new(simulation.world()),
             detail,
             parts: BodyPart::of_shapes(robot),
             drives: robot.drives(),
@@ -324,6 +329,11 @@ impl Meter {
         let contact = sums.contacts.ground();
         let poses = simulation.body_poses();
         let tops = Tops::from_poses(robot, &self.parts, &poses);
+        let (root, angles) = (simulation.ground_from_root(), simulation.joint_angles());
+        let time = simulation.time() - self.begin.unwrap_or_default();
+        let sides = Sides::from_poses(robot, &poses, &root);
+        self.crawl.sides.widen(sides);
+        self.nearness.see(&angles, time);
         let done = self.crawl.cycles.len();
         // The last row of all ends with the last cycle.
         let (cycle, index) = match &mut self.cycle {
@@ -343,16 +353,16 @@ impl Meter {
         let mean = |sum: f64| sum / sums.steps as f64;
         self.crawl.snapshots.push(simulation.snapshot());
         self.crawl.rows.push(Row {
-            time: simulation.time() - self.begin.unwrap_or_default(),
+            time,
             cycle: index,
             stage: sums.stage,
             command: self.reached.clone(),
-            angles: simulation.joint_angles(),
+            angles,
             applied_torque: sums.torque.iter().map(|&sum| mean(sum)).collect(),
             contact,
             forces: sums.contacts.forces(),
             effort: sums.effort,
-            ground_from_root: simulation.ground_from_root(),
+            ground_from_root: root,
             tops,
         });
     }
@@ -367,6 +377,7 @@ impl Meter {
         }
         Crawl {
             touches: self.touches.finish(),
+            nearest: self.nearness.finish(),
             stopped: robot.stopped(),
             arrived,
             engine_steps: robot.simulation().steps(),

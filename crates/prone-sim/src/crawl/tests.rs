@@ -430,7 +430,7 @@ fn a_crawl_begins_where_the_robot_lies() {
     };
     let plan = steady(3);
     let crawler = crawler(&world, &plan, begin, Straight::default()).unwrap();
-    let extension = crawler.first_pose().joints.clone();
+    let extension = crawler.cycle().extension().clone();
     let (crawl, robot) = proceed(lying, crawler, &plan, &never).unwrap();
     let third = crawl.cycles[2].advance().forward;
     // As from its settled start, within a tenth: it lies beside its line, turned a little.

@@ -16,7 +16,9 @@ use prone_record::experiment::{
     TextError,
 };
 use prone_record::record_info::CrawlOptions;
-use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, End, OnTouch, ROW_STEP, check_limbs};
+use prone_sim::crawl::{
+    self, Bound, Crawl, CrawlError, CrawlPlan, End, OnTouch, ROW_STEP, check_limbs,
+};
 use prone_sim::driven::LateCommands;
 use prone_sim::{LoadedRobot, World};
 
@@ -132,7 +134,10 @@ impl CrawlSetup {
             at_most: ms / 1e3,
             seed,
         });
-        let (Ending::Cycles(most_cycles) | Ending::PastObstacles(most_cycles)) = experiment.ending;
+        let most_cycles = match end {
+            End::Cycles(cycles) => cycles,
+            End::Past { bound, .. } => bound.most_cycles(),
+        };
         let (steering_name, turn_command_deg, heading_deg) = match experiment.steering {
             SteeringChoice::None => ("none", 0.0, None),
             SteeringChoice::Constant { degrees } => ("constant", degrees, None),
@@ -318,10 +323,11 @@ fn steering(choice: SteeringChoice, gait: &GaitSource) -> Result<Steering, Crawl
 
 /// What can be said of an experiment before anything of it is read.
 fn check(experiment: &CrawlExperiment) -> Result<(), CrawlSetupError> {
-    let (Ending::Cycles(cycles) | Ending::PastObstacles(cycles)) = experiment.ending;
-    let (fewest, most) = CrawlExperiment::CYCLES_BOUNDS;
-    let bounds = (fewest as f64, most as f64);
-    Limit::check("a crawl", " cycles", cycles as f64, bounds)?;
+    if let Ending::Cycles(cycles) | Ending::PastObstacles(Some(cycles)) = experiment.ending {
+        let (fewest, most) = CrawlExperiment::CYCLES_BOUNDS;
+        let bounds = (fewest as f64, most as f64);
+        Limit::check("a crawl", " cycles", cycles as f64, bounds)?;
+    }
     if let Some(seconds) = experiment.time_step_s {
         Limit::check("an engine step", " s", seconds, TIME_STEPS)?;
         let steps = ROW_STEP / seconds;
@@ -449,9 +455,9 @@ fn scene(choice: &SceneChoice) -> Result<Scene, CrawlSetupError> {
 
 /// When a crawl ends: past the obstacles, behind the last plate, leg or panel.
 fn end(ending: Ending, world: &World) -> Result<(End, Option<PastObstacles>), CrawlSetupError> {
-    let at_most = match ending {
+    let bound = match ending {
         Ending::Cycles(cycles) => return Ok((End::Cycles(cycles), None)),
-        Ending::PastObstacles(at_most) => at_most,
+        Ending::PastObstacles(cycles) => cycles.map_or(Bound::Pace, Bound::Cycles),
     };
     let far = |obstacle: &Obstacle| obstacle.ground_from_box.origin().x() + obstacle.half_edges.x;
     let walls = world.obstacles().iter().filter(|it| !it.kind.is_ground());
@@ -461,5 +467,5 @@ fn end(ending: Ending, world: &World) -> Result<(End, Option<PastObstacles>), Cr
         .ok_or_else(|| CrawlSetupError::NothingToPass {
             scene: world.scene().name.clone(),
         })?;
-    Ok((End::Past { x, at_most }, Some(PastObstacles { x })))
+    Ok((End::Past { x, bound }, Some(PastObstacles { x })))
 }

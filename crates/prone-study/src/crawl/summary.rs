@@ -8,6 +8,7 @@ use prone_sim::World;
 use prone_sim::crawl::{Crawl, CycleRow, GroundLoad};
 
 use prone::scene::obstacle_name;
+use prone_record::crawl_outcome::{OutcomeSummary, SelfCollisionSummary};
 use prone_record::crawl_summary::{
     CalibrationStop, CrawlSummary, CycleSummary, GroundSummary, GroupLoad, MotorSummary,
     PlateContact, ReasonSummary, SheetClamp, TopsMm, VerdictSummary,
@@ -65,6 +66,13 @@ pub fn of(
         seconds: touch.seconds,
         peak_n: touch.peak,
     });
+    let contacts: Vec<PlateContact> = contacts.collect();
+    let arrived = until_past.map(|_| crawl.arrived);
+    let nearest = crawl.nearest.as_ref().map(|nearest| SelfCollisionSummary {
+        shapes: [nearest.shapes.0.clone(), nearest.shapes.1.clone()],
+        distance_mm: nearest.distance_m * 1e3,
+        time_s: nearest.time,
+    });
     let clamps = checked.clamps().iter();
     let stops = crawl.stopped.iter().map(|stopped| CalibrationStop {
         joint: robot.joints[stopped.joint.0].name.clone(),
@@ -76,7 +84,13 @@ pub fn of(
         robot: robot.name.clone(),
         scene: world.scene().name.clone(),
         cycles,
-        arrived: until_past.map(|_| crawl.arrived),
+        outcome: Some(OutcomeSummary::new(
+            arrived,
+            cycles,
+            mm_per_cycle,
+            &contacts,
+        )),
+        arrived,
         distance_mm,
         path_mm,
         time_s: crawl.effort.seconds,
@@ -87,8 +101,10 @@ pub fn of(
         lateral_mm,
         yaw_deg: per_cycle.iter().map(|cycle| cycle.yaw_deg).sum(),
         plate_contacts: crawl.touches.iter().map(|touch| touch.count).sum(),
-        contacts: contacts.collect(),
+        contacts,
         top_mm: TopsMm::from_metres(&crawl.tops),
+        width_mm: Some(crawl.sides.width() * 1e3),
+        self_collision: nearest,
         stride_mm,
         pull_efficiency: of_stride(pull_mm_per_cycle),
         stride_efficiency: of_stride(mm_per_cycle),

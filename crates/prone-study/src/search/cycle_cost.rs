@@ -5,7 +5,7 @@
 //! worst motor, height, or what a shoulder's servo demands. In all but those of [`Role::Beside`] nothing may be higher than the
 //! ceiling and the advance has to be enough; [`CycleRules`] may ask for no more of a shoulder's servo
 //! (with the robot's own gains), no more weight on trunk, head and legs in the pull (where values count),
-//! no more heat. Limbs are kept apart in the plan, not in what lags behind it. What is broken adds
+//! no more heat. Parts of the robot are kept apart in the plan, not in what lags behind it. What is broken adds
 //! up, mostly in shares of its limit (stops in rad, limbs in one another in centimetres), and
 //! compares before the value. The settings are taken in order, and those after one that
 //! breaks a rule are not simulated: each counts as [`UNTRIED`]. So does a cycle that cannot be

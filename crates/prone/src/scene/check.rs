@@ -6,6 +6,8 @@ use super::{Legs, Plate, Scene};
 
 /// The largest extent or distance, m: beyond it a number was typed in another unit.
 const LARGEST: f64 = 100.0;
+/// The lowest ceiling, m: the thinnest robot that lies down is higher.
+pub const LOWEST_CEILING: f64 = 0.01;
 /// The smallest extent, m: below it the engine's contacts see nothing.
 const SMALLEST: f64 = 1e-4;
 /// The steepest floor or ramp, rad.
@@ -37,6 +39,18 @@ pub enum SceneError {
         lowest: f64,
         /// The most that it may be.
         highest: f64,
+    },
+    /// A height in metres was given as one in millimetres.
+    #[error("{item}: {quantity} {value} m: did you mean {meant}?")]
+    TakenForMetres {
+        /// Of which part of the scene.
+        item: Item,
+        /// Which number.
+        quantity: Quantity,
+        /// What it is, m.
+        value: f64,
+        /// What was probably meant, m.
+        meant: f64,
     },
     /// The grid of the rough ground is too fine for its size.
     #[error(
@@ -152,6 +166,12 @@ impl fmt::Display for Item {
     }
 }
 
+/// What a ceiling's height, m, was probably meant to be, m, where it is lower than any robot: a
+/// thousand times as much, as it was typed in metres where millimetres were asked for.
+pub fn taken_for_metres(height: f64) -> Option<f64> {
+    (height > 0.0 && height < LOWEST_CEILING).then_some(height * 1e3)
+}
+
 /// A number and its bounds.
 type Rule = (Quantity, f64, [f64; 2]);
 
@@ -163,6 +183,18 @@ impl Scene {
     pub fn check(&self) -> Result<(), SceneError> {
         for (item, rules) in self.rules() {
             for (quantity, value, [lowest, highest]) in rules {
+                let meant = match quantity {
+                    Quantity::Height => taken_for_metres(value),
+                    _ => None,
+                };
+                if let Some(meant) = meant {
+                    return Err(SceneError::TakenForMetres {
+                        item,
+                        quantity,
+                        value,
+                        meant,
+                    });
+                }
                 // A number that is none lies in no interval.
                 if !(lowest..=highest).contains(&value) {
                     return Err(SceneError::OutOfBounds {
@@ -382,6 +414,21 @@ mod tests {
         ] {
             assert_eq!(message, expected);
         }
+    }
+
+    #[test]
+    fn limit_a_ceiling_in_metres_is_asked_about() {
+        for (height, meant) in [(0.19e-3, 0.19), (1.5e-3, 1.5), (9.9e-3, 9.9)] {
+            let mut scene = full();
+            scene.plates[0].height = height;
+            let Err(SceneError::TakenForMetres { meant: found, .. }) = scene.check() else {
+                panic!("{height}");
+            };
+            assert!((found - meant).abs() < 1e-12, "{found}");
+        }
+        let mut scene = full();
+        scene.plates[0].height = LOWEST_CEILING;
+        assert_eq!(scene.check(), Ok(()));
     }
 
     #[test]

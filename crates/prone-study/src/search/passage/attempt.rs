@@ -6,7 +6,7 @@ use prone::motor::{Load, Verdict};
 use prone::robot::{BodyPart, Robot};
 use prone::scene::{Scene, obstacle_name};
 use prone::steering::HeadingHold;
-use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, Detail, End, OnTouch};
+use prone_sim::crawl::{self, Bound, Crawl, CrawlError, CrawlPlan, Detail, End, OnTouch};
 
 use super::super::setting::Setting;
 
@@ -82,7 +82,7 @@ pub(super) fn attempt(
         scale: TimeScale::ONE,
         end: End::Past {
             x: way.x,
-            at_most: way.at_most,
+            bound: Bound::Cycles(way.at_most),
         },
         on_touch: OnTouch::End,
         offsets: setting.spec.offsets.clone(),
