@@ -16,12 +16,11 @@ use crate::{cycle_search, pull_terms};
 
 pub(crate) fn plan(args: &CostArgs) -> Result<Plan, Failure> {
     let files = crate::robot::files(args.terms.robot.name())?;
-    let is_cycle = match args.terms.source.as_deref() {
-        Some(source) => source == "cycle",
-        None => {
-            let named = files.gaits.named(args.gait.name());
-            named.map_err(Failure::input)?.is_cycle()
-        }
+    let is_cycle = if let Some(source) = args.terms.source.as_deref() {
+        source == "cycle"
+    } else {
+        let named = files.gaits.named(args.gait.name());
+        named.map_err(Failure::input)?.is_cycle()
     };
     let experiment = if is_cycle {
         Experiment::CycleCost(Box::new(cycle(args, &files)?))

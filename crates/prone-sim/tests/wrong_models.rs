@@ -136,12 +136,12 @@ const MODELS: &[Refusal] = &[
     (
         "<gyro name=\"Gyrometer\" site=\"imu\"/>",
         "",
-        "nao/robot.toml:363:8: nao/robot.xml has no gyro at site imu",
+        "nao/robot.toml:392:8: nao/robot.xml has no gyro at site imu",
     ),
     (
         "<accelerometer name=\"Accelerometer\" site=\"imu\"/>",
         "<accelerometer name=\"Accelerometer\" site=\"LToe\"/>",
-        "nao/robot.toml:363:8: nao/robot.xml has no accelerometer at site imu",
+        "nao/robot.toml:392:8: nao/robot.xml has no accelerometer at site imu",
     ),
     (
         "<mujoco model",
@@ -356,52 +356,52 @@ const TABLES: &[Refusal] = &[
     (
         "LHipPitch = [-1.5359, 0.8]",
         "LHipPitch = [-88.0, 45.0]",
-        "nao/robot.toml:165:1: a range needs -2π <= lower < upper <= 2π, not -88..45",
+        "nao/robot.toml:194:1: a range needs -2π <= lower < upper <= 2π, not -88..45",
     ),
     (
         "LHipPitch = 0.4712",
         "LHipPitch = 27.0",
-        "nao/robot.toml:169:1: LHipPitch must be within -2π..2π rad, not 27",
+        "nao/robot.toml:198:1: LHipPitch must be within -2π..2π rad, not 27",
     ),
     (
         "LHipPitch = 0.4712",
         "LHipPitch = nan",
-        "nao/robot.toml:169:1: LHipPitch must be within -2π..2π rad, not NaN",
+        "nao/robot.toml:198:1: LHipPitch must be within -2π..2π rad, not NaN",
     ),
     (
         "site = \"imu\"",
         "site = \"inu\"",
-        "nao/robot.toml:363:8: there is no site \"inu\" in nao/robot.xml; did you mean \"imu\"?",
+        "nao/robot.toml:392:8: there is no site \"inu\" in nao/robot.xml; did you mean \"imu\"?",
     ),
     (
         "site = \"imu\"",
         "site = \"LToe\"",
-        "nao/robot.toml:363:8: site LToe is on LFoot; the inertial unit must be on the root torso",
+        "nao/robot.toml:392:8: site LToe is on LFoot; the inertial unit must be on the root torso",
     ),
     (
         "gyroscope_noise_rad_s = 0.0009",
         "gyroscope_noise_rad_s = -0.0009",
-        "nao/robot.toml:363:8: gyroscope_noise_rad_s must be within 0..10, not -0.0009",
+        "nao/robot.toml:392:8: gyroscope_noise_rad_s must be within 0..10, not -0.0009",
     ),
     (
         "accelerometer_bias_m_s2 = 0.05",
         "accelerometer_bias_m_s2 = nan",
-        "nao/robot.toml:363:8: accelerometer_bias_m_s2 must be within 0..100, not NaN",
+        "nao/robot.toml:392:8: accelerometer_bias_m_s2 must be within 0..100, not NaN",
     ),
     (
         "command_step_ms = 10.0",
         "command_step_ms = 0.0",
-        "nao/robot.toml:372:19: command_step_ms must be positive and finite, not 0",
+        "nao/robot.toml:401:19: command_step_ms must be positive and finite, not 0",
     ),
     (
         "command_step_ms = 10.0",
         "command_step_ms = 10000.0",
-        "nao/robot.toml:372:19: command_step_ms must be at most 1000, not 10000",
+        "nao/robot.toml:401:19: command_step_ms must be at most 1000, not 10000",
     ),
     (
         "gear_efficiency = 0.6",
         "gear_efficiency = 1.1",
-        "nao/robot.toml:373:19: gear_efficiency must be within 0.05..1, not 1.1",
+        "nao/robot.toml:402:19: gear_efficiency must be within 0.05..1, not 1.1",
     ),
     (
         "speed_rad_s = 7.45          # published 8.27",
@@ -416,62 +416,82 @@ const TABLES: &[Refusal] = &[
     (
         "uphill_deg = 1.5",
         "uphill_deg = 150.0",
-        "nao/robot.toml:374:14: uphill_deg must be at most 90, not 150",
+        "nao/robot.toml:403:14: uphill_deg must be at most 90, not 150",
     ),
     (
         "yaw = 0.9",
         "yaw = -0.9",
-        "nao/robot.toml:379:7: yaw must be within 0..100, not -0.9",
+        "nao/robot.toml:408:7: yaw must be within 0..100, not -0.9",
     ),
     (
         "lateral_rad_m = 3.5",
         "lateral_rad_m = 200.0",
-        "nao/robot.toml:380:17: lateral_rad_m must be within 0..100, not 200",
+        "nao/robot.toml:409:17: lateral_rad_m must be within 0..100, not 200",
     ),
     (
         "lateral_sum_rad_m = 0.35",
         "lateral_sum_rad_m = inf",
-        "nao/robot.toml:381:21: lateral_sum_rad_m must be within 0..100, not inf",
+        "nao/robot.toml:410:21: lateral_sum_rad_m must be within 0..100, not inf",
     ),
     (
         "least_advance_mm = 120.0",
         "least_advance_mm = 0.0",
-        "nao/robot.toml:386:20: least_advance_mm must be positive and finite, not 0",
+        "nao/robot.toml:416:20: least_advance_mm must be positive and finite, not 0",
     ),
     (
         "upper_arm_rad = [-1.75, -0.35]",
         "upper_arm_rad = [-0.35, -1.75]",
-        "nao/robot.toml:387:18: a range needs -2π <= lower < upper <= 2π, not -0.35..-1.75",
+        "nao/robot.toml:417:18: a range needs -2π <= lower < upper <= 2π, not -0.35..-1.75",
     ),
     (
         "upper_arm_rad = [-1.75, -0.35]",
         "upper_arm_rad = [-100.0, -20.0]",
-        "nao/robot.toml:387:18: a range needs -2π <= lower < upper <= 2π, not -100..-20",
+        "nao/robot.toml:417:18: a range needs -2π <= lower < upper <= 2π, not -100..-20",
     ),
     (
         "upper_arm_rad = [-1.75, -0.35]",
         "upper_arm_rad = [-1.75]",
-        "nao/robot.toml:387:17: invalid length 1, expected an array of exactly 2 values",
+        "nao/robot.toml:417:17: invalid length 1, expected an array of exactly 2 values",
     ),
     (
         "lying_length_mm = 600.0",
         "lying_length_mm = 600000.0",
-        "nao/robot.toml:390:19: lying_length_mm must be at most 10000, not 600000",
+        "nao/robot.toml:420:19: lying_length_mm must be at most 10000, not 600000",
     ),
     (
         "[control]\ncommand_step_ms = 10.0\n",
         "[control]\ncommand_step_ms = 10.0\nservo_rate_per_s = 20.0\n",
-        "nao/robot.toml:373:1: unknown field `servo_rate_per_s`, expected one of `command_step_ms`, `gear_efficiency`, `uphill_deg`, `steering`; docs/robot.md describes every section and key",
+        "nao/robot.toml:402:1: unknown field `servo_rate_per_s`, expected one of `command_step_ms`, `gear_efficiency`, `uphill_deg`, `steering`; docs/robot.md describes every section and key",
     ),
     (
         "[control]\ncommand_step_ms = 10.0\n",
         "[control]\n",
-        "nao/robot.toml:371:1: missing field `command_step_ms`; docs/robot.md describes every section and key",
+        "nao/robot.toml:400:1: missing field `command_step_ms`; docs/robot.md describes every section and key",
     ),
     (
-        "[control.steering]\nyaw = 0.9\nlateral_rad_m = 3.5\nlateral_sum_rad_m = 0.35\n",
+        "by = \"HeadYaw\"",
+        "by = \"HeadPitch\"",
+        "nao/robot.toml:163:9: a joint cannot limit itself",
+    ),
+    (
+        "by = \"HeadYaw\"",
+        "by = \"HeadJaw\"",
+        "nao/robot.toml:164:6: HeadJaw",
+    ),
+    (
+        "[-87.49, -18.91, 11.46], [-62.45",
+        "[-187.49, -18.91, 11.46], [-62.45",
+        "nao/robot.toml:163:9: the angle of line 2 is not above that of the line before",
+    ),
+    (
+        "yaw_sum = 0.3",
+        "yaw_sum = -0.3",
+        "nao/robot.toml:411:11: yaw_sum must be within 0..100, not -0.3",
+    ),
+    (
+        "[control.steering]\nyaw = 0.9\nlateral_rad_m = 3.5\nlateral_sum_rad_m = 0.35\nyaw_sum = 0.3                 # of cycles that can be shifted\n",
         "",
-        "nao/robot.toml:371:1: missing field `steering`; docs/robot.md describes every section and key",
+        "nao/robot.toml:400:1: missing field `steering`; docs/robot.md describes every section and key",
     ),
     (
         "[search]\nleast_advance_mm = 120.0\nupper_arm_rad = [-1.75, -0.35]\n",

@@ -443,7 +443,7 @@ fn a_search_of_cycles_that_was_sent() {
     assert!(said.contains("a gait's name is made of"), "{said}");
     for (at, reason) in [
         (vec![178.0, 178.0], "178 mm is there twice"),
-        (vec![150.0], "150 mm is too low for NAO H25 V4"),
+        (vec![115.0], "115 mm is too low for NAO H25 V4"),
         (vec![1.0], "a margin of 1 mm leaves no room"),
         (
             vec![f64::NAN],
@@ -474,14 +474,14 @@ fn a_search_of_cycles_that_was_sent() {
 /// A cycle costs what a search says of it, and keeps no rule that it is held to and breaks.
 #[test]
 fn the_cost_of_a_cycle_that_was_sent() {
-    let cost = |rules: CycleRulesChoice, objective| {
+    let quoted = |rules: CycleRulesChoice, objective, ideal| {
         let experiment = Experiment::CycleCost(Box::new(CycleCostExperiment {
             robot: robot(),
             gait: gait("hip-10"),
             from: None,
             objective,
             steerable: false,
-            ideal: false,
+            ideal,
             rules,
             worst_over: None,
         }));
@@ -490,6 +490,8 @@ fn the_cost_of_a_cycle_that_was_sent() {
         };
         *cost
     };
+    // Corners are another matter.
+    let cost = |rules, objective| quoted(rules, objective, true);
     let free = CycleRulesChoice {
         most_head_n: Some(1000.0),
         least_advance_mm: Some(10.0),
@@ -522,6 +524,11 @@ fn the_cost_of_a_cycle_that_was_sent() {
     let rule = &broken.settings[0].broken[0];
     assert_eq!(rule.rule, "duty");
     assert!((rule.sum - 0.1).abs() < 1e-9, "{rule:?}");
+    // With them the value is the same, as it is that of the servos.
+    let cornered = quoted(free, CycleObjective::Heat, false);
+    assert_eq!(cornered.value, heat.value);
+    assert_eq!(cornered.settings[..2], heat.settings[..]);
+    assert!(cornered.settings.len() >= 10, "{}", cornered.settings.len());
 }
 
 #[test]

@@ -42,6 +42,10 @@ replaces an earlier result in one step; all its files but timing.json are the sa
 the same input, on any number of threads. Ctrl-C ends the simulation at once; pictures of a record
 that are being drawn are finished before the program ends. In both cases nothing is written. A second
 Ctrl-C ends the program at once.")]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each is a switch of the command line"
+)]
 pub(crate) struct CrawlRunArgs {
     #[command(flatten)]
     pub(crate) gait: GaitArg,

@@ -70,6 +70,10 @@ in other settings too: friction 0.4 and 1, time scales 0.8 and 1.7, steps of 1 m
 servos, for information. A point is robust where it keeps 80 % of its advance in them, below the
 ceiling; it is ideal where it keeps the rules in the settings of its search alone. The folder appears when all is done; until then the searches are kept in OUT.checkpoint.json beside it,
 and --resume goes on from there to the same bytes.")]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each is a switch of the command line"
+)]
 pub(crate) struct FrontierArgs {
     /// Two quantities: the first is held at several values, the second is searched at each
     ///

@@ -56,24 +56,34 @@ fn regression_cycles_advance_as_far_and_as_low_as_they_did() {
 #[test]
 fn shipped_cycles_keep_below_their_ceilings_advance_and_repeat_themselves() {
     let world = World::new(&nao(), Regime::LOCOMOTION).unwrap();
+    let mut wrong = Vec::new();
     for name in shipped::cycle_names() {
         let crawl = crawl(&world, name, 3, 0.0);
         let third = &crawl.cycles[2];
         let forward = third.advance().forward * 1e3;
-        assert!(forward > 40.0, "{name}: {forward:.1} mm");
+        if forward < 40.0 {
+            wrong.push(format!("{name} advances by {forward:.1} mm"));
+        }
         let ceiling = ["low-", "far-"].iter().find_map(|it| name.strip_prefix(it));
-        if let Some(ceiling) = ceiling {
-            let ceiling: f64 = ceiling.parse().unwrap();
-            let highest = crawl.tops.highest() * 1e3;
-            assert!(highest < ceiling, "{name}: {highest:.1} mm");
+        let ceiling = ceiling.map(|digits| digits.parse::<f64>().unwrap());
+        let highest = crawl.tops.highest() * 1e3;
+        if ceiling.is_some_and(|ceiling| highest >= ceiling) {
+            wrong.push(format!("{name} is {highest:.1} mm high"));
         }
         let steady = crawl.cycles[1].advance().forward * 1e3;
-        assert!((steady - forward).abs() < 2.0, "{name}: {steady:.1} mm");
+        if (steady - forward).abs() > 2.0 {
+            wrong.push(format!(
+                "{name} advances by {steady:.1} and {forward:.1} mm"
+            ));
+        }
         // A symmetric gait, and a robot that is symmetric but for 0.18° of its ankles' limits, which
         // cycles that walk on their knees feel most: half a degree a cycle.
-        let yaw = third.advance().yaw;
-        assert!(yaw.abs() < 0.0087, "{name}: {yaw:.4} rad");
+        let yaw = third.advance().yaw.to_degrees();
+        if yaw.abs() > 0.5 {
+            wrong.push(format!("{name} turns by {yaw:.2}°"));
+        }
     }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 /// Touches are counted, and the forces of the rows are those of the ground on the robot.
@@ -214,7 +224,7 @@ fn uneven_ground_is_held_where_open_loop_drifts_away() {
         .unwrap()
         .limit;
     let open = off_the_line("hip-10", Straight::default());
-    assert!(open.abs() > 0.5, "open loop {open} m");
+    assert!(open.abs() > 0.25, "open loop {open} m");
     let held = off_the_line("hip-10", hold(limit));
     assert!(held.abs() < 0.04, "held {held} m");
 }

@@ -346,7 +346,8 @@ mod tests {
     fn the_middle_of_the_box_is_the_cycle() {
         let loaded = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
         let robot = loaded.robot();
-        for name in shipped::cycle_names() {
+        // A pull of a cubic has a spline near it, and none that is it.
+        for name in shipped::cycle_names().filter(|name| *name != "thesis-optimal") {
             let cycle = shipped::cycle(name).unwrap().unwrap();
             let form = CycleForm::about(robot, &cycle, Free::FULL).unwrap();
             let point = form.point(&form.middle);

@@ -88,8 +88,7 @@ fn advance_and_speed_are_those_of_the_worst_setting() {
     // What else is searched is that of the first setting, wherever else it is tried.
     near(of(CycleObjective::Duty, &all), 0.5);
     for order in [[&as_it_is, &warm_nowhere()], [&warm_nowhere(), &as_it_is]] {
-        let worst = of(CycleObjective::Advance, &order);
-        assert!(worst.is_infinite() && worst > 0.0, "{worst}");
+        assert!(of(CycleObjective::Advance, &order).is_nan());
     }
     assert!(of(CycleObjective::Advance, &[]).is_nan());
 }
