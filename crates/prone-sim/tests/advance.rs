@@ -10,6 +10,7 @@ fn cycle(from: Bearing, to: Bearing) -> CycleRow {
     CycleRow {
         gait: String::new(),
         turn: 0.0,
+        shift: 0.0,
         begin: 0.0,
         seconds: 1.0,
         from,

@@ -78,10 +78,12 @@ fn a_passage_names_the_cycle_that_fits() {
         cycles: ["efficient", "far-200"]
             .map(|name| PassageCycle {
                 gait: gait(name),
+                called: name.to_owned(),
                 origin: "shipped".to_owned(),
             })
             .into(),
         ceiling_mm: 188.0,
+        length_m: 1.0,
         margin_mm: 1.0,
         search: None,
     };
@@ -479,6 +481,7 @@ fn the_cost_of_a_cycle_that_was_sent() {
             from: None,
             objective,
             steerable: false,
+            ideal: false,
             rules,
             worst_over: None,
         }));

@@ -8,7 +8,7 @@ use glam::DVec3;
 use super::*;
 use crate::attitude::ImuReading;
 use crate::frames::Transform;
-use crate::gait::cycle::{Approach, Cycle, Easing, Pull, Steering, TimeScale, Waypoint};
+use crate::gait::cycle::{Approach, Cycle, Easing, Pull, Steer, Steering, TimeScale, Waypoint};
 use crate::gait::{Curve, LimitsPolicy, PhaseDuration};
 use crate::mapping::{ArmMode, MappingVariant};
 use crate::port::{InertialUnit, JointCommand, Senses};
@@ -430,7 +430,8 @@ impl Pilot for Choosing {
     fn decide(&mut self, _: &Moment<'_>) -> Result<Decision, PilotError> {
         let cycle = self.cycles[self.decided];
         self.decided += 1;
-        Ok(Decision { cycle, turn: 0.0 })
+        let steer = Steer::STRAIGHT;
+        Ok(Decision { cycle, steer })
     }
 
     fn feel(&mut self, _: &Moment<'_>) -> Result<(), PilotError> {

@@ -4,7 +4,7 @@ use prone::regime::Regime;
 use prone_files::shipped;
 
 use super::*;
-use crate::crawl::{CrawlPlan, Detail, End, run};
+use crate::crawl::{CrawlPlan, Detail, End, OnTouch, run};
 use crate::{LoadedRobot, RobotFiles};
 
 fn nao() -> World {
@@ -68,7 +68,9 @@ fn identity_a_crawl_and_its_rows_say_the_same() {
         cycles: vec![shipped::cycle("low-175").unwrap().unwrap()],
         scale: TimeScale::ONE,
         end: End::Cycles(1),
+        on_touch: OnTouch::GoOn,
         offsets: None,
+        late: None,
         imu_seed: None,
         detail: Detail::Rows,
     };

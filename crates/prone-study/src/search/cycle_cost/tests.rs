@@ -21,6 +21,8 @@ fn warm(heat_per_metre: f64) -> Trial {
         weight: 50.0,
         body_share: 0.0,
         yaw: 0.0,
+        drift: 0.0,
+        verdict: None,
     }
 }
 
@@ -58,11 +60,46 @@ fn heats_merge_geometrically_or_to_the_worst_of_shares() {
     assert!((over.heat(&[&four, &nine]) - 0.5).abs() < 1e-12);
     assert!((over.heat(&[&four, &much]) - 0.9).abs() < 1e-12);
     // Of other objectives the robot's own servos decide.
-    let of = |objective: CycleObjective| value(objective, &[&four, &much], &Merge::Mean);
+    let tried = [&four, &much];
+    let of = |objective: CycleObjective| value(objective, &tried, &tried, &Merge::Mean);
     assert!((of(CycleObjective::Peak) - 4.0).abs() < 1e-12);
     assert!((of(CycleObjective::Speed) + 0.05).abs() < 1e-12);
     assert!((of(CycleObjective::Advance) + 0.1).abs() < 1e-12);
     assert!((of(CycleObjective::Heat) - 18.0).abs() < 1e-12);
+}
+
+/// What a cycle advances where everything is as in the model says little: the value is that of the
+/// setting in which it is worst.
+#[test]
+fn advance_and_speed_are_those_of_the_worst_setting() {
+    let as_it_is = warm(4.0);
+    let sticky = Trial {
+        advance: 0.06,
+        ..warm(4.0)
+    };
+    let slow = Trial {
+        seconds: 4.0,
+        ..warm(4.0)
+    };
+    let of = |objective, kept: &[&Trial]| value(objective, &[&as_it_is], kept, &Merge::Mean);
+    let all = [&as_it_is, &sticky, &slow];
+    near(of(CycleObjective::Advance, &all), -0.06);
+    near(of(CycleObjective::Speed, &all), -0.025);
+    // What else is searched is that of the first setting, wherever else it is tried.
+    near(of(CycleObjective::Duty, &all), 0.5);
+    for order in [[&as_it_is, &warm_nowhere()], [&warm_nowhere(), &as_it_is]] {
+        let worst = of(CycleObjective::Advance, &order);
+        assert!(worst.is_infinite() && worst > 0.0, "{worst}");
+    }
+    assert!(of(CycleObjective::Advance, &[]).is_nan());
+}
+
+/// A trial whose advance is not a number.
+fn warm_nowhere() -> Trial {
+    Trial {
+        advance: f64::NAN,
+        ..warm(4.0)
+    }
 }
 
 /// A heat that is not a number is the worst, whatever the others are.
@@ -138,7 +175,8 @@ fn a_joint_may_not_be_asked_for_more_speed() {
     near(excess_speed(&speed(f64::NAN)), UNTRIED);
     let turn = CycleError::Turn {
         cycle: String::new(),
-        turn_deg: 3.0,
+        what: "turn",
+        asked_deg: 3.0,
         limit_deg: 0.0,
     };
     near(excess_speed(&turn), UNTRIED);

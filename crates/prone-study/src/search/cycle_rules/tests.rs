@@ -1,3 +1,6 @@
+use prone::gait::cycle::TimeScale;
+use prone::motor::{Reason, Verdict};
+use prone::regime::Regime;
 use prone::robot::BodyPart;
 
 use super::*;
@@ -12,12 +15,14 @@ const RULES: CycleRules = CycleRules {
     demanded_shoulder: 2.0,
     head: 1.5,
     heat: 50.0,
+    drift: 0.05,
+    verdict: Duty::Continuous,
     least_speed: 0.0,
     most_duty: 0.8,
 };
 
 /// The robot's own servos.
-const OWN: Servo = Servo::DcMotor(MotorServo::ROBOT);
+const OWN: MotorServo = MotorServo::ROBOT;
 
 /// The first setting's advance, m.
 const FIRST: f64 = 0.16;
@@ -43,11 +48,33 @@ fn on_the_limit() -> Trial {
         weight: 50.0,
         body_share: RULES.body_share,
         yaw: 0.0,
+        drift: RULES.drift,
+        verdict: Some(Verdict {
+            duty: Duty::Continuous,
+            reasons: Vec::new(),
+        }),
+    }
+}
+
+/// A setting of a role, with servos of its own.
+fn setting(role: Role, servo: MotorServo) -> SettingSpec {
+    SettingSpec {
+        kind: SettingKind::AsItIs,
+        regime: Regime::LOCOMOTION.with_motors(servo),
+        friction: None,
+        scale: TimeScale::ONE,
+        pull: None,
+        offsets: None,
+        late: None,
+        cycles: 2,
+        turn: 0.0,
+        held: false,
+        role,
     }
 }
 
 fn broken(role: Role, trial: &Trial) -> f64 {
-    in_all(&RULES.broken_by_trial(role, OWN, trial, FIRST))
+    in_all(&RULES.broken_by_trial(&setting(role, OWN), trial, FIRST))
 }
 
 fn in_all(broken: &[(&'static str, f64)]) -> f64 {
@@ -139,11 +166,8 @@ fn a_cycle_may_not_advance_less() {
     holds(RULES.advance, Side::Above, 0.1, advanced(Role::Value));
     // Where it has to hold, it keeps a share of what it does in the first setting.
     holds(0.85 * FIRST, Side::Above, 0.1, advanced(Role::Keep(0.85)));
-    let straight = Role::Straight {
-        yaw: 0.05,
-        keep: 0.85,
-    };
-    holds(0.85 * FIRST, Side::Above, 0.1, advanced(straight));
+    // Half of it is left where it turns as hard as it can, and has turned far enough.
+    holds(0.5 * FIRST, Side::Above, 0.1, advanced(Role::Turn(0.0)));
     // Going backwards breaks more than standing still.
     near(advanced(Role::Value)(0.0), 1.0);
     near(advanced(Role::Value)(-RULES.advance), 2.0);
@@ -159,7 +183,7 @@ fn a_share_is_at_least_that_of_the_least_advance() {
     let role = Role::Keep(0.85);
     for first in [0.2 * RULES.advance, 0.0, -1.0, f64::NAN] {
         near(
-            in_all(&RULES.broken_by_trial(role, OWN, &trial, first)),
+            in_all(&RULES.broken_by_trial(&setting(role, OWN), &trial, first)),
             0.5,
         );
     }
@@ -188,46 +212,43 @@ fn trunk_and_legs_may_not_carry_more_where_values_count() {
         ..on_the_limit()
     };
     near(
-        in_all(&free.broken_by_trial(Role::Value, OWN, &trial, FIRST)),
+        in_all(&free.broken_by_trial(&setting(Role::Value, OWN), &trial, FIRST)),
         0.0,
     );
 }
 
 #[test]
 fn a_shoulders_own_servo_may_not_demand_more() {
-    let demanded = |servo: Servo| {
+    let demanded = |servo: MotorServo| {
         move |demanded_shoulder: f64| {
             let trial = Trial {
                 demanded_shoulder,
                 ..on_the_limit()
             };
-            in_all(&RULES.broken_by_trial(Role::Value, servo, &trial, FIRST))
+            in_all(&RULES.broken_by_trial(&setting(Role::Value, servo), &trial, FIRST))
         }
     };
     let limit = RULES.demanded_shoulder;
     holds(limit, Side::Below, 0.1, demanded(OWN));
-    near(
-        demanded(Servo::DcMotor(MotorServo::STIFF))(10.0 * limit),
-        0.0,
-    );
+    near(demanded(MotorServo::STIFF)(10.0 * limit), 0.0);
 }
 
 #[test]
 fn a_motor_may_not_work_more_where_values_count() {
-    let loaded = |role: Role, servo: Servo| {
+    let loaded = |role: Role, servo: MotorServo| {
         move |duty: f64| {
             let trial = Trial {
                 duty: (duty, String::new()),
                 advance: FIRST,
                 ..on_the_limit()
             };
-            in_all(&RULES.broken_by_trial(role, servo, &trial, FIRST))
+            in_all(&RULES.broken_by_trial(&setting(role, servo), &trial, FIRST))
         }
     };
     let limit = RULES.most_duty;
     holds(limit, Side::Below, 0.1, loaded(Role::Value, OWN));
     near(loaded(Role::Keep(0.5), OWN)(2.0 * limit), 0.0);
-    let stiff = Servo::DcMotor(MotorServo::STIFF);
+    let stiff = MotorServo::STIFF;
     near(loaded(Role::Value, stiff)(2.0 * limit), 0.0);
 }
 
@@ -244,7 +265,7 @@ fn a_cycle_may_not_be_slower_where_values_count() {
                 seconds: FIRST / speed,
                 ..on_the_limit()
             };
-            in_all(&rules.broken_by_trial(role, OWN, &trial, FIRST))
+            in_all(&rules.broken_by_trial(&setting(role, OWN), &trial, FIRST))
         }
     };
     near(timed(Role::Value)(1.01 * rules.least_speed), 0.0);
@@ -309,18 +330,25 @@ fn a_turn_is_to_the_left() {
     near(broken(role, &turned(-0.1)), 2.0);
 }
 
+/// How far a held heading comes off its line is the trial's to say; where none is held nothing is
+/// asked.
 #[test]
-fn straight_is_straight_to_both_sides() {
-    let role = Role::Straight {
-        yaw: 0.05,
-        keep: 0.85,
-    };
-    for side in [1.0, -1.0] {
-        holds(0.05, Side::Below, 0.1, |yaw| {
-            role.misdirected(&turned(side * yaw))
-        });
-        near(role.misdirected(&turned(side * 0.1)), 1.0);
-        near(broken(role, &turned(side * 0.1)), 1.0);
+fn a_held_heading_may_not_come_further_off_its_line() {
+    for role in [Role::Value, Role::Keep(0.85)] {
+        let held = SettingSpec {
+            held: true,
+            ..setting(role, OWN)
+        };
+        let drifted = |spec: &SettingSpec, drift: f64| {
+            let trial = Trial {
+                advance: FIRST,
+                drift,
+                ..on_the_limit()
+            };
+            in_all(&RULES.broken_by_trial(spec, &trial, FIRST))
+        };
+        holds(RULES.drift, Side::Below, 0.1, |drift| drifted(&held, drift));
+        near(drifted(&setting(role, OWN), 9.0), 0.0);
     }
 }
 
@@ -337,11 +365,6 @@ fn other_roles_do_not_ask_for_a_direction() {
 fn roles_keep_their_shares() {
     let share = |role: Role| role.keep().unwrap_or(f64::NAN);
     near(share(Role::Keep(0.7)), 0.7);
-    let straight = Role::Straight {
-        yaw: 0.05,
-        keep: 0.6,
-    };
-    near(share(straight), 0.6);
     // Half of the advance is left where it turns as hard as it can.
     near(share(Role::Turn(0.1)), 0.5);
     assert_eq!((Role::Value.keep(), Role::Beside.keep()), (None, None));
@@ -355,7 +378,7 @@ fn roles_keep_their_shares() {
 
 /// What a confirmation asks, one thing at a time.
 #[test]
-fn a_cycle_holds_where_it_is_low_far_and_straight() {
+fn a_cycle_holds_where_it_is_low_and_far_and_turns() {
     let trial = Trial {
         setting: SettingKind::AsItIs,
         advance: 0.1,
@@ -369,6 +392,8 @@ fn a_cycle_holds_where_it_is_low_far_and_straight() {
         weight: 50.0,
         body_share: 0.1,
         yaw: 0.03,
+        drift: 9.0,
+        verdict: None,
     };
     let at = |role: Role, kept: f64, ceiling: f64| {
         super::holds(role, &trial, kept, Bounds { ceiling, head: 1.0 })
@@ -384,9 +409,6 @@ fn a_cycle_holds_where_it_is_low_far_and_straight() {
         assert!(!at(role, share - 0.01, 0.18));
         assert!(!at(role, f64::NAN, 0.18));
     }
-    let straight = |yaw: f64| Role::Straight { yaw, keep: 0.6 };
-    assert!(at(straight(0.04), 1.0, 0.18));
-    assert!(!at(straight(0.02), 1.0, 0.18));
     assert!(at(Role::Turn(0.02), 1.0, 0.18));
     assert!(!at(Role::Turn(0.04), 1.0, 0.18));
     for (advance, yaw) in [(-0.1, 0.03), (0.0, 0.03), (0.1, f64::NAN)] {
@@ -395,7 +417,8 @@ fn a_cycle_holds_where_it_is_low_far_and_straight() {
             yaw,
             ..trial.clone()
         };
-        assert!(!super::holds(straight(0.04), &bad, 1.0, BOUNDS), "{bad:?}");
+        let role = Role::Turn(0.02);
+        assert!(!super::holds(role, &bad, 1.0, BOUNDS), "{bad:?}");
     }
     for head in [1.1, f64::NAN] {
         let bad = Trial {
@@ -430,4 +453,84 @@ fn the_head_may_not_carry() {
         near(carried(role)(f64::NAN), UNTRIED);
     }
     near(carried(Role::Beside)(40.0), 0.0);
+}
+
+/// Beyond the bound that was asked for, motor by motor; the head has a rule of its own.
+#[test]
+fn motors_may_not_be_beyond_what_a_verdict_allows() {
+    let worked = |value: f64, role: Role, servo: MotorServo, verdict: Duty| {
+        let rules = CycleRules { verdict, ..RULES };
+        let reason = |measure| Reason {
+            measure,
+            joint: None,
+            value,
+        };
+        let trial = Trial {
+            advance: FIRST,
+            verdict: Some(Verdict {
+                duty: Duty::NotOnARobot,
+                reasons: vec![
+                    reason(Measure::RmsTorque),
+                    Reason {
+                        value: 100.0,
+                        ..reason(Measure::Head)
+                    },
+                ],
+            }),
+            ..on_the_limit()
+        };
+        in_all(&rules.broken_by_trial(&setting(role, servo), &trial, FIRST))
+    };
+    for (duty, bound) in [(Duty::Continuous, 1.0), (Duty::Limited, 1.7)] {
+        holds(bound, Side::Below, 0.1, |value| {
+            worked(value, Role::Value, OWN, duty)
+        });
+    }
+    near(worked(9.0, Role::Value, OWN, Duty::NotOnARobot), 0.0);
+    // Only the robot's own servos say what its motors do, and only where values count.
+    near(
+        worked(9.0, Role::Value, MotorServo::STIFF, Duty::Continuous),
+        0.0,
+    );
+    near(worked(9.0, Role::Keep(0.85), OWN, Duty::Continuous), 0.0);
+}
+
+/// Measures add up, so that a search can go down each slope by itself.
+#[test]
+fn every_measure_of_a_verdict_is_held() {
+    let reasons = [
+        (Measure::RmsTorque, 1.2),
+        (Measure::SupplyClipped, 0.325),
+        (Measure::CurrentLimited, 0.07),
+        (Measure::PlannedSpeed, 1.2),
+    ];
+    let reasons = reasons.map(|(measure, value)| Reason {
+        measure,
+        joint: None,
+        value,
+    });
+    let trial = Trial {
+        verdict: Some(Verdict {
+            duty: Duty::Limited,
+            reasons: reasons.into(),
+        }),
+        ..on_the_limit()
+    };
+    near(broken(Role::Value, &trial), 0.2 + 0.3 + 0.4 + 0.5);
+}
+
+/// What cannot be judged is not thought possible.
+#[test]
+fn limit_a_verdict_that_is_unknown() {
+    let trial = Trial {
+        verdict: None,
+        ..on_the_limit()
+    };
+    near(broken(Role::Value, &trial), UNTRIED);
+    let anyhow = CycleRules {
+        verdict: Duty::NotOnARobot,
+        ..RULES
+    };
+    let spec = setting(Role::Value, OWN);
+    near(in_all(&anyhow.broken_by_trial(&spec, &trial, FIRST)), 0.0);
 }

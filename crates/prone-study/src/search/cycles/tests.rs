@@ -8,6 +8,7 @@ use prone_sim::RobotFiles;
 
 use super::super::candidates::Searched;
 use super::super::cycle_cost::{CycleAim, Merge};
+use super::super::cycle_form::Free;
 use super::super::cycle_jobs::base;
 use super::super::cycle_rules::Bounds;
 use super::super::cycle_rules::CycleRules;
@@ -80,7 +81,8 @@ fn a_steerable_search_finds_what_turns_to_the_left() {
     };
     let left = shipped::cycle("low-175").unwrap().unwrap();
     let best = |base: &Cycle| {
-        let searched = CycleSearch::new(robot.robot(), &settings, aim.clone(), base).unwrap();
+        let (robot, aim) = (robot.robot(), aim.clone());
+        let searched = CycleSearch::new(robot, &settings, aim, base, Free::FULL).unwrap();
         let mut search = Search::new(Solver::AboutTheMiddle, 1, 1, 16);
         search.proceed(&Threads(Searched::new(&searched)), |_| {
             ControlFlow::Continue(())
