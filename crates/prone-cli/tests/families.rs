@@ -91,20 +91,14 @@ fn a_robot_s_own_gaits_go_before_those_that_ship() {
     assert_eq!(own, knees(&["least-torque"]));
     assert_ne!(own, knees(&["nominal"]));
 
-    let unknown = refused(&["gait", "show", "gallop", "--robot", &robot]);
-    assert!(
-        unknown.contains(
-            "/toddler/gaits (pulls: nominal; cycles: low-165, ours), nor one that ships with prone \
-             (pulls: nominal, optimal,"
-        ),
-        "{unknown}"
-    );
-    let cycle = ["crawl", "run", "--gait", "gallop", "--robot", &robot];
-    let unknown = refused(&cycle);
-    assert!(
-        unknown.contains("/toddler/gaits (low-165, ours), nor one that ships with prone"),
-        "{unknown}"
-    );
+    let list = format!("`prone list --robot {}` shows all", at(&home, "toddler"));
+    for command in [["gait", "show"], ["crawl", "run"]] {
+        let named = |name: &str| refused(&[&command[..], &[name, "--robot", &robot]].concat());
+        assert!(named("gallop").contains(&list), "{}", named("gallop"));
+        // A cycle of its own is offered as those that ship are.
+        let unknown = named("uors");
+        assert!(unknown.contains("did you mean \"ours\"?"), "{unknown}");
+    }
 }
 
 #[test]
