@@ -33,7 +33,7 @@ fn number(value: &Value, key: &str) -> f64 {
 fn figures_agree_with_one_another() {
     let run = summary(&[
         "--gait",
-        "low-175",
+        "hip-10",
         "--cycles",
         "4",
         "--turn-deg-per-cycle",
@@ -106,7 +106,7 @@ fn figures_agree_with_one_another() {
 fn plates_are_touched_or_passed() {
     let low = [
         "--gait",
-        "low-175",
+        "hip-10",
         "--ceiling-mm",
         "150",
         "--length-m",
@@ -127,7 +127,7 @@ fn plates_are_touched_or_passed() {
     }
     let passed = summary(&[
         "--gait",
-        "low-175",
+        "hip-10",
         "--ceiling-mm",
         "190",
         "--length-m",
@@ -176,7 +176,7 @@ fn a_touch_may_be_a_failure() {
     let folder = home.path().join("record");
     let run = |ceiling_mm: &str| {
         let typed =
-            "crawl run --gait low-175 --length-m 0.3 --cycles 1 --fail-on-contact --ceiling-mm";
+            "crawl run --gait hip-10 --length-m 0.3 --cycles 1 --fail-on-contact --ceiling-mm";
         let mut typed: Vec<&str> = typed.split(' ').collect();
         typed.extend([ceiling_mm, "--record", folder.to_str().unwrap()]);
         prone(&typed)
@@ -203,7 +203,7 @@ fn a_touch_may_be_a_failure() {
 #[test]
 fn limit_a_crawl_past_obstacles_ends_after_its_bound() {
     let typed =
-        "crawl run --gait low-175 --ceiling-mm 190 --length-m 1 --until-past --cycles 2 --json";
+        "crawl run --gait hip-10 --ceiling-mm 190 --length-m 1 --until-past --cycles 2 --json";
     let typed: Vec<&str> = typed.split(' ').collect();
     let done = prone(&typed);
     assert_eq!(done.status.code(), Some(1));
@@ -224,7 +224,7 @@ fn records_are_the_same_on_any_number_of_threads_and_replace_each_other() {
             "crawl",
             "run",
             "--gait",
-            "low-175",
+            "hip-10",
             "--cycles",
             "2",
             "--scene",
@@ -255,12 +255,12 @@ fn records_are_the_same_on_any_number_of_threads_and_replace_each_other() {
             "commands.csv",
             "contacts.csv",
             "cycles.csv",
-            "figures/fig-22-low-175-start.png",
-            "figures/fig-22-low-175-start.svg",
-            "figures/fig-28-low-175-sequence.png",
-            "figures/fig-28-low-175-sequence.svg",
-            "figures/fig-31-low-175-angles.png",
-            "figures/fig-31-low-175-angles.svg",
+            "figures/fig-22-hip-10-start.png",
+            "figures/fig-22-hip-10-start.svg",
+            "figures/fig-28-hip-10-sequence.png",
+            "figures/fig-28-hip-10-sequence.svg",
+            "figures/fig-31-hip-10-angles.png",
+            "figures/fig-31-hip-10-angles.svg",
             "figures.json",
             "model.json",
             "motors.csv",
@@ -302,7 +302,7 @@ fn of_two_crawls_into_one_folder_the_second_is_refused() {
     let folder = home.path().join("new/record");
     let arguments = |cycles, record| {
         [
-            "crawl", "run", "--gait", "low-175", "--cycles", cycles, "--record", record,
+            "crawl", "run", "--gait", "hip-10", "--cycles", cycles, "--record", record,
         ]
     };
     let record = folder.to_str().unwrap();
@@ -348,8 +348,8 @@ fn limit_a_plan_that_does_not_lead_forward_has_no_efficiency() {
         ("constant_deg = -60", "0.0"),
         ("linear_deg = [-60, -50]", "-"),
     ] {
-        let low = include_str!("../../../robots/nao/gaits/low-175.toml");
-        let text = low.replacen("linear_deg = [-30, -90]", arm, 1);
+        let low = include_str!("../../../robots/nao/gaits/hip-10.toml");
+        let text = low.replacen("linear_deg = [-30, -85]", arm, 1);
         assert_ne!(text, low);
         fs::write(&gait, text).unwrap();
         let run = summary(&["--gait", at, "--cycles", "1"]);
@@ -378,7 +378,7 @@ fn what_a_robot_cannot_do_is_said_with_its_line() {
     let home = tempfile::tempdir().unwrap();
     let gait = home.path().join("gait.toml");
     let at = gait.to_str().unwrap();
-    let low = include_str!("../../../robots/nao/gaits/low-175.toml");
+    let low = include_str!("../../../robots/nao/gaits/hip-10.toml");
     let comment = low.lines().take_while(|line| line.starts_with('#')).count();
     // Lines after the comment at its head.
     let cases = [
@@ -390,7 +390,7 @@ fn what_a_robot_cannot_do_is_said_with_its_line() {
         ),
         ("time_s = 0.3", "time_s = 0.06", 33, "reach: "),
         (
-            "constant_deg = 20\n\n[pull.upper",
+            "constant_deg = 10\n\n[pull.upper",
             "constant_deg = 70\n\n[pull.upper",
             7,
             "",
@@ -419,7 +419,7 @@ fn a_record_replaces_nothing_that_is_not_one() {
     let home = tempfile::tempdir().unwrap();
     fs::write(home.path().join("cat.jpg"), b"cat").unwrap();
     let record = home.path().to_str().unwrap();
-    let refused = prone(&["crawl", "run", "--gait", "low-175", "--record", record]);
+    let refused = prone(&["crawl", "run", "--gait", "hip-10", "--record", record]);
     let message = String::from_utf8(refused.stderr).unwrap();
     assert_eq!(refused.status.code(), Some(2), "{message}");
     assert!(message.contains("is not an earlier result"), "{message}");
@@ -479,7 +479,14 @@ fn a_robot_without_motors_has_no_heat_and_no_verdict() {
     let text = text.replace("family = \"nao\"\n", "");
     fs::write(robot.join("robot.toml"), text.replace("\nmotor = ", "\n#")).unwrap();
     let robot = robot.to_str().unwrap();
-    let typed = ["--gait", "gentle", "--cycles", "1", "--robot", robot];
+    let typed = [
+        "--gait",
+        "thesis-nominal",
+        "--cycles",
+        "1",
+        "--robot",
+        robot,
+    ];
     let run = summary(&typed);
     for place in [
         "/heat_s",
@@ -509,7 +516,7 @@ fn a_robot_without_motors_has_no_heat_and_no_verdict() {
         "--source",
         "cycle",
         "--from",
-        "gentle",
+        "thesis-nominal",
         "--seed",
         "1",
         "--budget",

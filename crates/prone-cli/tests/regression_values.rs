@@ -20,12 +20,12 @@ const TOLERANCE: f64 = 1e-9;
 
 #[test]
 fn regression_a_cycle_under_the_table() {
-    assert_holds("crawl-low-175-table");
+    assert_holds("crawl-hip-10-table");
 }
 
 #[test]
 fn regression_two_cycles_held_to_their_heading_on_uneven_friction() {
-    assert_holds("crawl-low-200-held");
+    assert_holds("crawl-hip-10-held");
 }
 
 #[test]
@@ -34,8 +34,8 @@ fn regression_the_plan_of_the_nominal_gait() {
 }
 
 #[test]
-fn regression_the_plan_of_a_found_cycle() {
-    assert_holds("gait-far-200");
+fn regression_the_plan_of_a_cycle() {
+    assert_holds("gait-thesis-nominal");
 }
 
 #[test]

@@ -158,14 +158,14 @@ fn own_runs_come_first_and_nothing_is_said_of_figures_that_no_run_has() {
     // It is called after what it holds: the runs of one's own, then the study.
     let heading = page.split("<h1>").nth(1).unwrap();
     let heading = heading.split("</h1>").next().unwrap();
-    assert!(heading.starts_with("low-175 · under-plate, "), "{heading}");
+    assert!(heading.starts_with("hip-10 · under-plate, "), "{heading}");
     assert!(heading.ends_with(" and 2 more"), "{heading}");
     let at = |sought: &str| page.find(sought).unwrap_or_else(|| panic!("{sought}"));
     let order = [
         "<nav ",
         "<iframe ",
         "<h2>Report card</h2>",
-        "<figure id=\"fig-31-low-175-angles\">",
+        "<figure id=\"fig-31-hip-10-angles\">",
         "<figure id=\"confirmation\">",
         "<h2>The Projected Profile crawl</h2>",
         "<figure id=\"fig-36-nominal-torque-by-duration\">",
@@ -226,7 +226,7 @@ fn a_page_loads_nothing_and_says_what_it_shows() {
         "Text without a source is about NAO of the recording scene (approximation) and NAO H25 V4.";
     assert!(page.contains(about));
     // The crawl that was named, and in the report of a reproduction one gait beside the other.
-    assert!(frames[0].contains("title=\"Replay: low-175 · under-plate\""));
+    assert!(frames[0].contains("title=\"Replay: hip-10 · under-plate\""));
     let own = text(Path::new(&results().reproduction).join("report.html"));
     let title = "title=\"Replay: nominal · level beside optimal · level\"";
     assert!(elements(&own, "iframe")[0].contains(title));

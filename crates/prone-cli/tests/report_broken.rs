@@ -78,7 +78,7 @@ fn what_is_readable_of_a_cut_table_is_shown_and_said() {
     assert_eq!(code, Some(2));
     assert!(message.contains("crawl/rows.csv, line "), "{message}");
     let page = text(page);
-    assert!(page.contains("Records that are not whole") && page.contains("fig-31-low-175-angles"));
+    assert!(page.contains("Records that are not whole") && page.contains("fig-31-hip-10-angles"));
 }
 
 #[test]

@@ -34,7 +34,7 @@ fn viewed(arguments: &[&str]) -> (Option<i32>, String, String) {
 #[test]
 fn a_record_becomes_a_page_beside_it() {
     let home = tempfile::tempdir().unwrap();
-    let run = record(&home.path().join("low"), "low-175", "plate-200");
+    let run = record(&home.path().join("low"), "hip-10", "plate-200");
     let page = home.path().join("low.html");
 
     let (code, said, notes) = viewed(&[&run]);
@@ -55,7 +55,7 @@ fn a_record_becomes_a_page_beside_it() {
     assert!(
         fs::read_to_string(&both)
             .unwrap()
-            .contains("/low) | low-175")
+            .contains("/low) | hip-10")
     );
 
     // What was read is not written over.
@@ -94,7 +94,7 @@ fn a_record_becomes_a_page_beside_it() {
 fn a_browser_shows_the_robot() {
     let viewer = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../viewer");
     let home = tempfile::tempdir().unwrap();
-    let one = record(&home.path().join("one"), "low-175", "plate-200");
+    let one = record(&home.path().join("one"), "hip-10", "plate-200");
     let two = record(&home.path().join("two"), "thesis-nominal", "table");
     let (single, double) = (home.path().join("one.html"), home.path().join("two.html"));
     viewed(&[&one]);

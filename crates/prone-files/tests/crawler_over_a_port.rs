@@ -225,7 +225,7 @@ fn nao() -> Arc<Robot> {
 fn program(most_cycles: usize) -> Program {
     let every = TICK;
     Program {
-        cycles: ["low-165", "low-175"]
+        cycles: ["hip-10", "thesis-nominal"]
             .map(|name| shipped::cycle(name).unwrap().unwrap())
             .to_vec(),
         scale: TimeScale::ONE,
@@ -337,7 +337,7 @@ fn a_failing_inertial_unit_stops_the_joints_and_says_so() {
         matches!(source, PilotError::InertialUnit { reason } if reason == "checksum"),
         "{source}"
     );
-    assert_eq!((*cycle, gait.as_str()), (2, "low-165"), "{error}");
+    assert_eq!((*cycle, gait.as_str()), (2, "hip-10"), "{error}");
     assert_eq!(port.stopped, 1);
     // Of what was on its way nothing arrives any more.
     let held = port.held.clone();
@@ -360,7 +360,7 @@ fn a_lost_link_is_an_error_of_its_cycle_and_stop_is_tried() {
     let error = driven.unwrap_err().to_string();
     assert_eq!(
         error,
-        "cycle 2 (low-165): the link is lost: nothing came for 0.01 s"
+        "cycle 2 (hip-10): the link is lost: nothing came for 0.01 s"
     );
     assert_eq!(port.stopped, 1);
 }

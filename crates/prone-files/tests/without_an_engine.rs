@@ -16,7 +16,7 @@ fn nao() -> Robot {
 }
 
 fn plan(robot: &Robot, stops: &[Range], turn: f64) -> CheckedCycle {
-    let cycle = shipped::cycle("low-175").unwrap().unwrap();
+    let cycle = shipped::cycle("hip-10").unwrap().unwrap();
     CheckedCycle::plan(robot, stops, &cycle, turn, TimeScale::ONE).unwrap()
 }
 

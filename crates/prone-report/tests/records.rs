@@ -54,7 +54,7 @@ fn lines(bytes: Vec<u8>) -> Vec<String> {
 fn a_whole_record_is_shown_and_reported() {
     let home = folder(made::whole);
     let run = view::record::read(home.path()).unwrap();
-    assert_eq!((run.title(), run.rows()), ("low-175 · level", 3));
+    assert_eq!((run.title(), run.rows()), ("hip-10 · level", 3));
     assert_eq!((run.shortfalls(), run.gaps()), (&[][..], &[][..]));
     let page = view::page(&[&run]).unwrap();
     assert!(page.contains("\"LKneePitch_rad\""));
@@ -83,7 +83,7 @@ fn a_whole_record_is_shown_and_reported() {
             .numbers
             .figures
             .iter()
-            .any(|figure| figure.stem == "fig-31-low-175-angles")
+            .any(|figure| figure.stem == "fig-31-hip-10-angles")
     );
 }
 
@@ -99,10 +99,10 @@ fn a_report_by_run_mentions_nothing_but_the_runs() {
     let report =
         |arrangement| Report::from_folders(&[source("RUN")], &Chapter::new(), arrangement).unwrap();
     let (own, chapter) = (report(Arrangement::Runs), report(Arrangement::Chapter));
-    assert!(own.html.contains("<h1>low-175 · level</h1>"));
+    assert!(own.html.contains("<h1>hip-10 · level</h1>"));
     assert!(
         own.html
-            .contains("<title>low-175 · level: report of prone</title>")
+            .contains("<title>hip-10 · level: report of prone</title>")
     );
     assert!(chapter.html.contains("<h1>A chapter</h1>"));
     assert_eq!(
@@ -121,7 +121,7 @@ fn a_report_by_run_mentions_nothing_but_the_runs() {
         assert!(chapter.html.contains(said), "{said}");
         assert!(!own.html.contains(said), "{said}");
     }
-    let figure = "<figure id=\"fig-31-low-175-angles\">";
+    let figure = "<figure id=\"fig-31-hip-10-angles\">";
     assert_eq!(own.html.matches(figure).count(), 1);
     for link in [
         "section-replay",
@@ -191,7 +191,7 @@ fn a_record_of_a_robot_is_not_called_a_simulation() {
     assert!(page.contains("Not simulated: RUN (the robot nao.local)."));
     for said in [
         "RUN was not simulated: the robot nao.local.",
-        "a crawl with low-175. Source: the robot nao.local.",
+        "a crawl with hip-10. Source: the robot nao.local.",
     ] {
         assert!(after.contains(said), "{said}");
     }
@@ -379,7 +379,7 @@ fn a_whole_record_is_exported_with_its_robot() {
     // collides.
     assert_eq!(text.matches("<visual>").count(), 3 + 37);
     assert_eq!(text.matches("<collision>").count(), 4);
-    let cycle = cycle_file::parse("low-175.toml", &info.gait.text.unwrap()).unwrap();
+    let cycle = cycle_file::parse("hip-10.toml", &info.gait.text.unwrap()).unwrap();
     let scale = TimeScale::new(info.options.time_scale().unwrap()).unwrap();
     let checked = CheckedCycle::plan(robot, &robot.stops(), &cycle, 0.0, scale).unwrap();
     let frames = key_frames::from_cycle(&checked, key_frames::TICK).unwrap();

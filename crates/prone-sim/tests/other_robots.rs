@@ -17,12 +17,12 @@ fn nao() -> Robot {
 #[test]
 fn limit_a_plan_needs_one_stop_for_each_joint() {
     let robot = nao();
-    let cycle = shipped::cycle("low-175").unwrap().unwrap();
+    let cycle = shipped::cycle("hip-10").unwrap().unwrap();
     let mut few = robot.stops();
     few.pop();
     let duration = PhaseDuration::new(1.0).unwrap();
     let refused = CheckedTrajectory::plan(&robot, &few, &cycle.gait().unwrap(), duration, 10);
-    let message = "gait low-175: 23 stops are given, robot NAO H25 V4 has 24 joints";
+    let message = "gait hip-10: 23 stops are given, robot NAO H25 V4 has 24 joints";
     assert_eq!(refused.unwrap_err().to_string(), message);
     let refused = CheckedCycle::plan(&robot, &few, &cycle, 0.0, TimeScale::ONE);
     assert_eq!(refused.unwrap_err().to_string(), message);
@@ -51,7 +51,7 @@ fn limit_the_statics_need_one_stop_for_each_joint() {
 fn limit_a_recovery_after_the_pull_of_another_robot_is_refused() {
     let (robot, mut other) = (nao(), nao());
     other.joints.push(robot.joints[0].clone());
-    let cycle = shipped::cycle("low-175").unwrap().unwrap();
+    let cycle = shipped::cycle("hip-10").unwrap().unwrap();
     let plan = |robot: &Robot| {
         CheckedCycle::plan(robot, &robot.stops(), &cycle, 0.0, TimeScale::ONE).unwrap()
     };
@@ -60,7 +60,7 @@ fn limit_a_recovery_after_the_pull_of_another_robot_is_refused() {
     let refused = ours.recovery_after(&theirs).unwrap_err();
     assert_eq!(
         refused.to_string(),
-        "cycle low-175 is planned for a robot of 24 joints, and low-175 before it for one of 25"
+        "cycle hip-10 is planned for a robot of 24 joints, and hip-10 before it for one of 25"
     );
     assert_eq!(refused.place(), "recovery");
 }

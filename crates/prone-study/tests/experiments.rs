@@ -31,7 +31,7 @@ fn gait(name: &str) -> GaitText {
 fn crawl() -> CrawlExperiment {
     CrawlExperiment {
         ending: Ending::Cycles(1),
-        ..CrawlExperiment::new(robot(), gait("low-175"))
+        ..CrawlExperiment::new(robot(), gait("hip-10"))
     }
 }
 
@@ -75,7 +75,7 @@ fn a_pull_leaves_the_record_of_a_pull() {
 fn a_passage_names_the_cycle_that_fits() {
     let passage = PassageExperiment {
         robot: robot(),
-        cycles: ["efficient", "far-200"]
+        cycles: ["thesis-nominal", "hip-10"]
             .map(|name| PassageCycle {
                 gait: gait(name),
                 called: name.to_owned(),
@@ -92,7 +92,7 @@ fn a_passage_names_the_cycle_that_fits() {
         panic!("a passage was asked for");
     };
     assert!(outcome.passage.feasible);
-    assert_eq!(outcome.cycle.unwrap().name, "far-200");
+    assert_eq!(outcome.cycle.unwrap().name, "hip-10");
     for (margin_mm, expected) in [
         (
             188.0,
@@ -407,8 +407,8 @@ fn a_search_of_cycles_that_was_sent() {
             name: Some("low".to_owned()),
         },
         from: vec![NamedGait {
-            called: "low-175".to_owned(),
-            gait: gait("low-175"),
+            called: "hip-10".to_owned(),
+            gait: gait("hip-10"),
         }],
         compared: Vec::new(),
         runs: Runs {
@@ -477,7 +477,7 @@ fn the_cost_of_a_cycle_that_was_sent() {
     let cost = |rules: CycleRulesChoice, objective| {
         let experiment = Experiment::CycleCost(Box::new(CycleCostExperiment {
             robot: robot(),
-            gait: gait("low-175"),
+            gait: gait("hip-10"),
             from: None,
             objective,
             steerable: false,

@@ -15,7 +15,7 @@ pub(crate) fn record() -> &'static Path {
         let folder = home.path().join("short");
         let at = folder.to_str().unwrap();
         let crawl = [
-            "crawl", "run", "--gait", "low-175", "--cycles", "1", "--record", at,
+            "crawl", "run", "--gait", "hip-10", "--cycles", "1", "--record", at,
         ];
         let plate = ["--ceiling-mm", "200", "--length-m", "1"];
         let done = prone(&[&crawl[..], &plate].concat());

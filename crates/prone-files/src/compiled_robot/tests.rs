@@ -43,6 +43,7 @@ fn reference_keys_hold_what_the_sources_say() {
     let sole = &document["robot"]["chain"]["left"]["toe"]["position_m"];
     let published = &document["robot"]["chain"]["published"];
     let imu = &document["robot"]["imu"];
+    let head = &document["robot"]["coupled_limits"][0]["table_rad"];
     let rpm = std::f64::consts::TAU / 60.0;
     for (what, value, expected) in [
         ("lower", &knee["range_rad"][0], -0.0923),
@@ -74,7 +75,11 @@ fn reference_keys_hold_what_the_sources_say() {
         ("yaw", &control["steering"]["yaw"], 0.9),
         ("lateral", &control["steering"]["lateral_rad_m"], 3.5),
         ("sum", &control["steering"]["lateral_sum_rad_m"], 0.35),
+        ("yaw sum", &control["steering"]["yaw_sum"], 0.3),
         ("uphill", &control["uphill_rad"], 1.5_f64.to_radians()),
+        ("head yaw", &head[1][0], -87.49_f64.to_radians()),
+        ("head down", &head[1][1], -18.91_f64.to_radians()),
+        ("head up", &head[1][2], 11.46_f64.to_radians()),
     ] {
         let value = value.as_f64().unwrap();
         assert!((value - expected).abs() < 1e-12, "{what}: {value}");
@@ -120,6 +125,18 @@ fn robots() -> impl Strategy<Value = Robot> {
         robot.shared_motors.clear();
         robot.control.command_step = number();
         robot.control.steering.lateral_sum = number();
+        robot.control.steering.yaw_sum = number();
+        if flags[5] {
+            robot.coupled_limits.clear();
+        }
+        for limit in &mut robot.coupled_limits {
+            for (index, (angle, range)) in limit.table.iter_mut().enumerate() {
+                // Angles that rise.
+                *angle = index as f64 * 0.1 + 0.09 * number();
+                range.lower = -number();
+                range.upper = number();
+            }
+        }
         robot.search.upper_arm.upper = number();
         for joint in &mut robot.joints {
             joint.range = Range {
@@ -243,6 +260,14 @@ fn limit_what_no_robot_has_is_refused_with_place_and_bound() {
     let refusals = [
         ("/robot/name", json!("")),
         ("/robot/name", json!(long)),
+        ("/robot/control/steering/yaw_sum", json!(-0.1)),
+        ("/robot/coupled_limits/0/joint", json!("Tail")),
+        ("/robot/coupled_limits/0/joint", json!("HeadYaw")),
+        ("/robot/coupled_limits/0/by", json!("Tail")),
+        ("/robot/coupled_limits/0/table_rad", json!([])),
+        ("/robot/coupled_limits/0/table_rad/1/0", json!(-3.0)),
+        ("/robot/coupled_limits/0/table_rad/1/1", json!(0.5)),
+        ("/robot/coupled_limits/0/table_rad/1/2", json!(700.0)),
         ("/robot/standing_height_m", json!(10.5)),
         ("/robot/bodies/0/parent", json!("Head")),
         ("/robot/bodies/0/joint", json!("HeadYaw")),

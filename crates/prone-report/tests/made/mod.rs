@@ -74,7 +74,7 @@ fn model(robot: &Robot) -> Value {
 
 /// `run.json` with an origin and what the tables hold.
 fn run(robot: &CompiledRobot, origin: &Value, record: &Value, options: &Value) -> Value {
-    let gait = shipped::gait_file("low-175").unwrap();
+    let gait = shipped::gait_file("hip-10").unwrap();
     json!({
         "program": "prone", "version": env!("CARGO_PKG_VERSION"), "commit": "c",
         "command": "crawl run",
@@ -83,7 +83,7 @@ fn run(robot: &CompiledRobot, origin: &Value, record: &Value, options: &Value) -
             "sha256": robot.sources_hash(), "standing_height_mm": 574.0,
         },
         "gait": {
-            "name": "low-175", "description": "by hand", "file": gait.file, "mapping": "original",
+            "name": "hip-10", "description": "by hand", "file": gait.file, "mapping": "original",
             "arm": "planted", "text": gait.text,
         },
         "scene": {
@@ -232,7 +232,7 @@ fn verdict() -> Value {
 
 fn summary() -> Value {
     json!({
-        "gait": "low-175", "robot": "NAO H25 V4", "scene": "level", "cycles": 1, "arrived": null,
+        "gait": "hip-10", "robot": "NAO H25 V4", "scene": "level", "cycles": 1, "arrived": null,
         "distance_mm": 0.2, "path_mm": 0.2, "time_s": 0.06, "mm_per_cycle": 0.2,
         "pull_mm_per_cycle": 0.2, "recovery_mm_per_cycle": 0.0, "mm_per_s": 3.3, "lateral_mm": 0.0,
         "yaw_deg": 0.0, "plate_contacts": 0, "contacts": [],

@@ -248,7 +248,7 @@ mod tests {
         let robot = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
         let world = World::new(&robot, Regime::LOCOMOTION).unwrap();
         let plan = CrawlPlan {
-            cycles: vec![shipped::cycle("low-175").unwrap().unwrap()],
+            cycles: vec![shipped::cycle("hip-10").unwrap().unwrap()],
             scale: TimeScale::ONE,
             end: End::Cycles(5),
             offsets: None,

@@ -346,7 +346,7 @@ mod tests {
     fn the_middle_of_the_box_is_the_cycle() {
         let loaded = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
         let robot = loaded.robot();
-        for name in ["low-175", "low-165", "efficient", "far-200"] {
+        for name in shipped::cycle_names() {
             let cycle = shipped::cycle(name).unwrap().unwrap();
             let form = CycleForm::about(robot, &cycle, Free::FULL).unwrap();
             let point = form.point(&form.middle);
@@ -379,7 +379,7 @@ mod tests {
     fn limit_a_time_that_no_pull_has_makes_no_cycle() {
         let loaded = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
         let form = |cycle: &Cycle| CycleForm::about(loaded.robot(), cycle, Free::FULL).unwrap();
-        let cycle = shipped::cycle("low-175").unwrap().unwrap();
+        let cycle = shipped::cycle("hip-10").unwrap().unwrap();
         let mut long = cycle.clone();
         long.pull.as_mut().unwrap().duration = PhaseDuration::new(500.0).unwrap();
         let form = form(&long);

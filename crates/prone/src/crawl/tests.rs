@@ -1,5 +1,7 @@
 //! The crawler over a robot of numbers: joints that are at once where they are commanded.
 
+mod waypoints;
+
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -12,7 +14,7 @@ use crate::gait::cycle::{Approach, Cycle, Easing, Pull, Steer, Steering, TimeSca
 use crate::gait::{Curve, LimitsPolicy, PhaseDuration};
 use crate::mapping::{ArmMode, MappingVariant};
 use crate::port::{InertialUnit, JointCommand, Senses};
-use crate::robot::testing::two_armed;
+use crate::robot::testing::two_armed_by_side;
 use crate::robot::{ContactGroup, JointAngles, Robot, Shape, Solid};
 use crate::statics::GRAVITY;
 use crate::steering::{Bearing, HeadingHold};
@@ -74,11 +76,7 @@ fn program(cycles: &[Cycle], most_cycles: usize, begin: Begin, delivery: Deliver
 
 /// A made-up robot whose joints are named by side, as errors name them.
 fn robot() -> Arc<Robot> {
-    let mut robot = two_armed();
-    for (index, joint) in robot.joints.iter_mut().enumerate() {
-        let side = if index < 7 { "L" } else { "R" };
-        joint.name = format!("{side}{}", joint.name);
-    }
+    let mut robot = two_armed_by_side();
     // It is carried by balls at its toes and elbows.
     let sides = [robot.chain.left.clone(), robot.chain.right.clone()];
     for side in sides {
@@ -583,7 +581,7 @@ fn limit_a_beginning_beyond_a_stop() {
 
 #[test]
 fn who_follows_a_line_needs_a_bearing() {
-    let hold = || HeadingHold::new(two_armed().control.steering, 0.2);
+    let hold = || HeadingHold::new(two_armed_by_side().control.steering, 0.2);
     let program = program(&[cycle("only")], 2, AT_ONCE, set_points());
     let error = crawl(&mut crawler_of(program.clone(), hold()), whole).err();
     assert!(

@@ -198,3 +198,17 @@ pub(crate) fn two_armed_with_motors() -> Robot {
     }
     robot
 }
+
+/// It, with joints that are named by side, as `Lknee`, and a right arm that rolls the other way round:
+/// twins of a robot have axes of either sign.
+pub(crate) fn two_armed_by_side() -> Robot {
+    let mut robot = two_armed();
+    for (index, joint) in robot.joints.iter_mut().enumerate() {
+        let side = if index < 7 { "L" } else { "R" };
+        joint.name = format!("{side}{}", joint.name);
+        if joint.name == "Rroll" {
+            joint.axis = -joint.axis;
+        }
+    }
+    robot
+}

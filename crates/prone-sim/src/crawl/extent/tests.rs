@@ -65,7 +65,7 @@ fn limit_a_spread_arm_widens_its_side() {
 fn identity_a_crawl_and_its_rows_say_the_same() {
     let world = nao();
     let plan = CrawlPlan {
-        cycles: vec![shipped::cycle("low-175").unwrap().unwrap()],
+        cycles: vec![shipped::cycle("hip-10").unwrap().unwrap()],
         scale: TimeScale::ONE,
         end: End::Cycles(1),
         on_touch: OnTouch::GoOn,

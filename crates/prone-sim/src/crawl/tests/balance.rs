@@ -202,7 +202,7 @@ fn identity_energy_closes_and_forces_balance_over_a_cycle() {
         MotorServo::STIFF,
         LOOSE,
     ];
-    let gaits = ["thesis-nominal", "low-175", "far-200"];
+    let gaits = ["thesis-nominal", "thesis-optimal", "hip-10"];
     let mut cases = Vec::new();
     for time_step in steps {
         for servo in servos {
@@ -321,7 +321,7 @@ fn identity_energy_closes_and_forces_balance_over_a_pull() {
 fn identity_rows_add_up_to_the_crawl() {
     let loaded = nao();
     let robot = loaded.robot();
-    for (gait, scale) in [("low-175", 1.0), ("thesis-nominal", 1.37)] {
+    for (gait, scale) in [("hip-10", 1.0), ("thesis-nominal", 1.37)] {
         let world = World::new(&loaded, Regime::LOCOMOTION).unwrap();
         let plan = CrawlPlan {
             scale: TimeScale::new(scale).unwrap(),
@@ -405,7 +405,7 @@ fn measured(robot: &LoadedRobot, gait: &str, servo: MotorServo, time_step: f64) 
 #[test]
 fn identity_a_finer_step_changes_nothing() {
     let robot = nao();
-    let gaits = ["thesis-nominal", "low-175", "least-heat"];
+    let gaits = ["thesis-nominal", "thesis-optimal", "hip-10"];
     let normal = gaits.map(|gait| (gait, MotorServo::ROBOT, 0.05, 0.03));
     let stiff = gaits.map(|gait| (gait, MotorServo::STIFF, 0.10, 0.04));
     let cases: Vec<_> = normal.into_iter().chain(stiff).collect();

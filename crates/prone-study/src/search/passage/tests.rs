@@ -31,12 +31,12 @@ fn under(mm: f64, names: &[&str]) -> Passage {
 
 #[test]
 fn what_the_shapes_rule_out_is_impossible_and_nothing_else_is() {
-    let low = under(115.9, &["low-175"]);
+    let low = under(115.9, &["hip-10"]);
     assert!(low.impossible && !low.feasible && !low.may_be_searched());
     assert!(low.limited_by.contains("Head"), "{}", low.limited_by);
     assert!(low.candidates.is_empty());
     // Too low for that cycle, which is tried all the same.
-    let tried = under(120.0, &["low-175"]);
+    let tried = under(120.0, &["hip-10"]);
     assert!(!tried.impossible && !tried.feasible && tried.may_be_searched());
     let [candidate] = tried.candidates.as_slice() else {
         panic!("one candidate");
@@ -47,7 +47,7 @@ fn what_the_shapes_rule_out_is_impossible_and_nothing_else_is() {
 
 #[test]
 fn the_answer_is_the_fastest_that_gets_through_every_corner() {
-    let passage = under(205.0, &["low-175", "low-200"]);
+    let passage = under(205.0, &["hip-10", "thesis-nominal"]);
     assert!(passage.feasible, "{passage:?}");
     let times: Vec<f64> = passage.candidates.iter().map(|it| it.time_s).collect();
     assert!(times.is_sorted(), "{times:?}");

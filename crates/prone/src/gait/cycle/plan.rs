@@ -1,13 +1,14 @@
-//! From a cycle to a [`CheckedCycle`]: turn, twins, stops.
+//! From a cycle to a [`CheckedCycle`]: pull, waypoints, twins, stops.
+
+mod coupled;
+mod steering;
 
 use std::collections::BTreeMap;
 
 use super::super::trajectory::{Company, note};
 use super::super::{CheckedTrajectory, Clamp, LimitsPolicy, PhaseDuration};
-use super::checked::{RecoveryPath, Stretch};
-use super::{
-    Approach, CheckedCycle, Cycle, CycleError, Easing, FastestJoint, Steer, TimeScale, Waypoint,
-};
+use super::checked::Stretch;
+use super::{Approach, CheckedCycle, Cycle, CycleError, Easing, FastestJoint, Steer, TimeScale};
 use crate::robot::{JointAngles, JointId, Mirror, Range, Robot, SideLayout};
 
 /// Time between two samples of a planned pull, s: commands in between are interpolated.
@@ -15,9 +16,6 @@ const SAMPLE_STEP: f64 = 0.005;
 
 /// A cycle without a pull that has fewer waypoints goes nowhere.
 const FEWEST_WITHOUT_A_PULL: usize = 2;
-
-/// Time between two postures that are held against limits which depend on another joint, s.
-const COUPLED_STEP: f64 = 0.01;
 
 /// Turn of the root about +y with which a trunk lies flat on its belly, rad: its top points forward.
 const FLAT_ON_THE_BELLY: f64 = std::f64::consts::FRAC_PI_2;
@@ -142,23 +140,6 @@ impl Planner<'_> {
         })
     }
 
-    fn check_steer(&self, Steer { turn, shift }: Steer) -> Result<(), CycleError> {
-        let steering = self.cycle.steering.as_ref();
-        let limits = steering.map_or((0.0, 0.0), |it| (it.limit, it.shift_limit));
-        for (what, asked, limit) in [("turn", turn, limits.0), ("shift", shift, limits.1)] {
-            // NaN is within no limit.
-            if !(-limit..=limit).contains(&asked) {
-                return Err(CycleError::Turn {
-                    cycle: self.cycle.name.clone(),
-                    what,
-                    asked_deg: asked.to_degrees(),
-                    limit_deg: limit.to_degrees(),
-                });
-            }
-        }
-        Ok(())
-    }
-
     fn pull(&self, turn: f64, scale: TimeScale) -> Result<Option<CheckedTrajectory>, CycleError> {
         let (Some(pull), Some(gait)) = (&self.cycle.pull, self.cycle.gait()) else {
             return Ok(None);
@@ -193,17 +174,6 @@ impl Planner<'_> {
         Ok(Some(planned))
     }
 
-    /// The joints that the steering moves, with their factors of the turn.
-    fn swing(&self) -> Result<Vec<(JointId, f64)>, CycleError> {
-        let named = self.cycle.steering.iter().flat_map(|it| &it.joints);
-        let swing = named.map(|(name, &factor)| {
-            let joint = self.joint("steering", name)?;
-            self.check_outside_chain("steering", joint)?;
-            Ok((joint, factor))
-        });
-        swing.collect()
-    }
-
     fn check_outside_chain(&self, place: &str, joint: JointId) -> Result<(), CycleError> {
         let chain = self.robot.chain.sides().map(SideLayout::commanded_joints);
         if !chain.iter().flatten().any(|&id| id == joint) {
@@ -214,29 +184,6 @@ impl Planner<'_> {
             place: place.to_owned(),
             joint: self.robot.joints[joint.0].name.clone(),
         })
-    }
-
-    /// By how much a turn moves each joint at the end of the pull, rad; 0 for the joints that the
-    /// steering names, which go back with the first waypoint.
-    fn aside(
-        &self,
-        pull: Option<&CheckedTrajectory>,
-        turn: f64,
-        scale: TimeScale,
-    ) -> Result<Vec<f64>, CycleError> {
-        let none = vec![0.0; self.robot.joints.len()];
-        let Some(pull) = pull.filter(|_| turn != 0.0) else {
-            return Ok(none);
-        };
-        let Some(straight) = self.pull(0.0, scale)? else {
-            return Ok(none);
-        };
-        let pairs = pull.last().joints.pairs(&straight.last().joints);
-        let mut aside: Vec<f64> = pairs.map(|(turned, straight)| turned - straight).collect();
-        for (joint, _) in self.swing()? {
-            aside[joint.0] = 0.0;
-        }
-        Ok(aside)
     }
 
     fn waypoints(
@@ -282,33 +229,6 @@ impl Planner<'_> {
         Ok(stretches)
     }
 
-    /// What a turn adds to the joints of a waypoint, rad.
-    fn added(
-        &self,
-        place: &str,
-        waypoint: &Waypoint,
-        steer: Steer,
-    ) -> Result<BTreeMap<JointId, f64>, CycleError> {
-        let steering = self.cycle.steering.as_ref();
-        let w = steering.map_or(0.0, |steering| steering.at_waypoints(steer.turn));
-        let mut added: BTreeMap<JointId, f64> = BTreeMap::new();
-        for (factors, command) in [(&waypoint.turn, w), (&waypoint.shift, steer.shift)] {
-            for (name, factor) in factors {
-                let joint = self.joint(place, name)?;
-                *added.entry(joint).or_default() += factor * command;
-                let twin = self.mirror.twin(joint);
-                let twin = twin.filter(|twin| {
-                    let name = &self.robot.joints[twin.joint.0].name;
-                    twin.joint != joint && !factors.contains_key(name)
-                });
-                if let Some(twin) = twin {
-                    *added.entry(twin.joint).or_default() -= twin.sign * factor * command;
-                }
-            }
-        }
-        Ok(added)
-    }
-
     /// The posture at the end of the waypoints, which a cycle without a pull begins with: joints
     /// that none of them names are at zero, or at the stop that is next to it.
     fn last_posture(&self, stretches: &[Stretch]) -> Result<JointAngles, CycleError> {
@@ -321,63 +241,6 @@ impl Planner<'_> {
             posture[limit.joint] = range.clamp(posture[limit.joint]);
         }
         Ok(posture)
-    }
-
-    /// Holds a planned cycle against limits that depend on another joint: what lies beyond is an
-    /// error or noted, by the cycle's policy. Postures of the way are kept within as they are made
-    /// ([`RecoveryPath::at`]).
-    fn check_coupled(
-        &self,
-        checked: &CheckedCycle,
-        path: &RecoveryPath,
-        clamps: &mut Vec<Clamp>,
-    ) -> Result<(), CycleError> {
-        if self.robot.coupled_limits.is_empty() {
-            return Ok(());
-        }
-        let seconds = checked.recovery_seconds();
-        let mut begin = 0.0;
-        for (name, end) in checked.recovery_ends() {
-            let mut time: f64 = begin;
-            while time <= end {
-                let place = format!("waypoint {name}");
-                let posture = path.straight(time);
-                self.within_coupled(&place, &posture, time / seconds, clamps)?;
-                time += COUPLED_STEP;
-            }
-            begin = time;
-        }
-        Ok(())
-    }
-
-    fn within_coupled(
-        &self,
-        place: &str,
-        posture: &JointAngles,
-        share: f64,
-        clamps: &mut Vec<Clamp>,
-    ) -> Result<(), CycleError> {
-        for limit in &self.robot.coupled_limits {
-            let (range, angle) = (limit.range(posture[limit.by]), posture[limit.joint]);
-            let excess = range.excess(angle);
-            if excess == 0.0 {
-                continue;
-            }
-            if self.cycle.limits == LimitsPolicy::Refuse || excess.is_nan() {
-                return Err(CycleError::Coupled {
-                    cycle: self.cycle.name.clone(),
-                    place: place.to_owned(),
-                    joint: self.robot.joints[limit.joint.0].name.clone(),
-                    by: self.robot.joints[limit.by.0].name.clone(),
-                    at: posture[limit.by],
-                    angle,
-                    lower: range.lower,
-                    upper: range.upper,
-                });
-            }
-            note(clamps, limit.joint, excess, share);
-        }
-        Ok(())
     }
 
     fn within_stop(
@@ -466,3 +329,6 @@ impl Planner<'_> {
 fn intervals(duration: PhaseDuration) -> usize {
     (duration.seconds() / SAMPLE_STEP).round() as usize
 }
+
+#[cfg(test)]
+mod tests;
