@@ -81,7 +81,7 @@ fn set_points_are_those_of_the_way_along_the_waypoints() {
 /// A path in time is one a cycle, with a knot at each waypoint.
 #[test]
 fn a_cycle_is_one_path_in_time() {
-    let mut crawler = rounds(2, AT_ONCE, Delivery::Segments { every: 0.3 });
+    let mut crawler = rounds(2, AT_ONCE, Delivery::Segments { every: 0.1 });
     let log = crawl(&mut crawler, whole).unwrap();
     let times: Vec<f64> = log.commands.iter().map(|(time, _)| *time).collect();
     assert_eq!(times.len(), 2, "{times:?}");
@@ -92,8 +92,9 @@ fn a_cycle_is_one_path_in_time() {
         };
         let knots = segment.knots.iter();
         let knots: Vec<f64> = knots.map(|knot| knot.seconds).collect();
-        assert_eq!(knots, [0.25, 0.5, 0.75, 1.0]);
-        assert!((segment.knots[1].angles[reach] - 0.5).abs() < 1e-12);
+        assert_eq!(knots.len(), 10, "{knots:?}");
+        assert!((knots[4] - 0.5).abs() < 1e-12 && (knots[9] - 1.0).abs() < 1e-12);
+        assert!((segment.knots[4].angles[reach] - 0.5).abs() < 1e-12);
     }
 }
 
@@ -238,7 +239,9 @@ fn a_stop_at_once_is_on_the_way() {
 /// Cycles with and without a pull follow one another: each begins where the other has come to.
 #[test]
 fn cycles_with_a_pull_and_without_one_follow_one_another() {
-    let cycles = [round("round"), cycle("pulls")];
+    let mut pulls = cycle("pulls");
+    pulls.pull.as_mut().unwrap().approach.seconds = 0.75;
+    let cycles = [round("round"), pulls];
     let program = program(&cycles, 3, AT_ONCE, set_points());
     let pilot = Choosing {
         cycles: vec![0, 1, 0, 0],

@@ -35,7 +35,7 @@ fn cycle() -> Cycle {
         pull: None,
         waypoints: vec![
             waypoint("fold", 0.4, &[("Lknee", FOLDED), ("Lhip", 0.2)]),
-            waypoint("reach", 0.3, &[("Lshoulder", 0.6), ("Lroll", 0.3)]),
+            waypoint("reach", 0.6, &[("Lshoulder", 0.6), ("Lroll", 0.3)]),
             waypoint("push", 0.5, &[("Lshoulder", -0.4), ("Lknee", 0.1)]),
         ],
         rest: 0.0,
@@ -111,7 +111,7 @@ fn a_rest_is_the_last_stretch_and_keeps_the_extension() {
     assert_eq!(checked.extension(), straight.extension());
     assert!((checked.recovery_seconds() - straight.recovery_seconds() - 0.7).abs() < 1e-12);
     let path = checked.recovery_after(&checked).unwrap();
-    near(&path.at(1.5), checked.extension());
+    near(&path.at(1.9), checked.extension());
 }
 
 /// Between cycles that are steered differently there is no jump: a path begins where the cycle before
@@ -151,7 +151,7 @@ fn a_slower_cycle_goes_the_same_way() {
         once.recovery_after(&once).unwrap(),
         twice.recovery_after(&twice).unwrap(),
     );
-    for k in 0..=12 {
+    for k in 0..=15 {
         let time = 0.1 * f64::from(k);
         near(&fast.at(time), &slow.at(2.0 * time));
     }
@@ -200,7 +200,7 @@ proptest! {
         };
         let (left, right) = (path(1.0), path(-1.0));
         let mirror = Mirror::of(&two_armed_by_side());
-        for k in 0..=24 {
+        for k in 0..=30 {
             let time = 0.05 * f64::from(k);
             near(&mirror.posture(&left.at(time)), &right.at(time));
         }
@@ -352,7 +352,7 @@ fn limit_stops_of_another_robot() {
 #[test]
 fn limit_a_turn_keeps_to_the_stops() {
     let mut robot = two_armed_by_side();
-    robot.joints[joint("Rshoulder").0].range.lower = 0.0 - FOLDED;
+    robot.joints[joint("Rshoulder").0].range.lower = -FOLDED;
     let mut cycle = cycle();
     cycle.waypoints[2].turn = BTreeMap::from([("Lshoulder".to_owned(), 1.0)]);
     assert!(plan_of(&robot, &cycle, Steer::STRAIGHT).is_ok());
@@ -400,7 +400,7 @@ fn limit_a_leg_that_is_too_fast_is_named() {
     else {
         panic!("{error}");
     };
-    assert_eq!((place.as_str(), joint.as_str()), ("reach", "Lshoulder"));
+    assert_eq!((place.as_str(), joint.as_str()), ("reach", "Rshoulder"));
     // Half again as fast as 1 rad in 0.1 s.
     assert!((speed - 15.0).abs() < 1e-9, "{speed}");
 }
@@ -487,7 +487,7 @@ fn limits_by_another_joint_hold_at_each_waypoint() {
     let mut cycle = across(LimitsPolicy::Refuse);
     cycle.waypoints = vec![
         waypoint("folded", 0.5, &[("Lknee", 0.5), ("Lroll", 0.0)]),
-        waypoint("peak", 0.553, &[("Lroll", 0.505)]),
+        waypoint("peak", 0.553, &[("Lroll", 0.502)]),
         waypoint("down", 0.5, &[("Lroll", 0.0)]),
     ];
     for waypoint in &mut cycle.waypoints {
@@ -498,7 +498,7 @@ fn limits_by_another_joint_hold_at_each_waypoint() {
         panic!("{error}");
     };
     assert_eq!(place, "waypoint peak");
-    assert!((angle - 0.505).abs() < 1e-12, "{angle}");
+    assert!((angle - 0.502).abs() < 1e-12, "{angle}");
     assert_eq!(error.place(), "peak");
     // The same as the last waypoint: the extension is stopped where the limit is.
     cycle.limits = LimitsPolicy::Clamp;
@@ -506,5 +506,5 @@ fn limits_by_another_joint_hold_at_each_waypoint() {
     let checked = plan_of(&coupled(), &cycle, Steer::STRAIGHT).unwrap();
     assert!((checked.extension()[joint("Lroll")] - 0.5).abs() < 1e-12);
     let largest = checked.clamps()[0].largest;
-    assert!((largest - 0.005).abs() < 1e-12, "{largest}");
+    assert!((largest - 0.002).abs() < 1e-12, "{largest}");
 }
