@@ -287,7 +287,7 @@ fn records_are_the_same_on_any_number_of_threads_and_replace_each_other() {
             .as_array()
             .unwrap()
             .len(),
-        14
+        24
     );
     assert_eq!(run["regime"]["name"], "locomotion");
     assert_eq!(run["scene"]["friction_left"], 0.7);

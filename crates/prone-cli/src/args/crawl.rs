@@ -106,7 +106,7 @@ pub(crate) struct CrawlRunArgs {
         allow_negative_numbers = true
     )]
     pub(crate) friction_right: Option<f64>,
-    /// Largest calibration error of the joints of arms and legs, degrees; each joint has its own, drawn uniformly within ± this
+    /// Largest calibration error of the joints, degrees; each joint has its own, drawn uniformly within ± this
     #[arg(long, value_name = "D", requires = "seed", value_parser = offset, allow_negative_numbers = true)]
     pub(crate) joint_offset_deg: Option<f64>,
     /// Seed of the calibration errors of --joint-offset-deg, of the inertial unit's noise and of

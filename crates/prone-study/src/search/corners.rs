@@ -184,7 +184,7 @@ impl Corner {
                 friction: SideFriction { left, right },
                 seed,
             } => format!(
-                "Friction is {left} at the left and {right} at the right, each joint of arms and legs is off by up to {OFFSET_DEG}°, drawn by seed {seed}, and the heading is held where the cycle can be steered."
+                "Friction is {left} at the left and {right} at the right, each joint is off by up to {OFFSET_DEG}°, drawn by seed {seed}, and the heading is held where the cycle can be steered."
             ),
             Self::Friction(friction) => format!("Friction is {friction} on both sides."),
             Self::Masses(factor) => {
