@@ -3,6 +3,7 @@
 mod crawl;
 pub(crate) mod cycle_rules;
 mod export;
+mod heights;
 pub(crate) mod list;
 mod named;
 pub(crate) mod optimize;

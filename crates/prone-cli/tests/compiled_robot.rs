@@ -198,6 +198,6 @@ fn checking_a_robot_fails_when_its_compiled_file_is_stale() {
     .unwrap();
     let (code, message, _) = state();
     assert_eq!(code, Some(1));
-    assert!(message.contains("has version 3 of its format"), "{message}");
+    assert!(message.contains("has version 4 of its format"), "{message}");
     assert!(message.ends_with(renewal), "{message}");
 }

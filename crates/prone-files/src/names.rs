@@ -276,7 +276,7 @@ mod tests {
             place: "waypoint fold".to_owned(),
             robot: "NAO".to_owned(),
             joint: "LHipPich".to_owned(),
-            known: vec!["LHipRoll".to_owned(), "LHipPitch".to_owned()],
+            known: ["LHipRoll".to_owned(), "LHipPitch".to_owned()].into(),
         };
         let unknown = UnknownName::from_cycle(&error).unwrap();
         assert_eq!(unknown.hint(), "; did you mean \"LHipPitch\"?");

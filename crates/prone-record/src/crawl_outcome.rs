@@ -2,7 +2,22 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::crawl_summary::PlateContact;
+/// A part of the robot that met an obstacle.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PlateContact {
+    /// The part, by its name in the model.
+    pub body: String,
+    /// Kind and number of the obstacle.
+    pub obstacle: String,
+    /// How often they met.
+    pub count: usize,
+    /// When first, s since the first pull began.
+    pub first_s: f64,
+    /// How long in all, s.
+    pub seconds: f64,
+    /// Largest normal force, N.
+    pub peak_n: f64,
+}
 
 /// Whether a crawl came through, and what it touched.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

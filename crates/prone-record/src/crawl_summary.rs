@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use prone::gait::Clamp;
 use prone::robot::{BodyPart, Robot, Tops};
 
+pub use crate::crawl_outcome::PlateContact;
 use crate::crawl_outcome::{OutcomeSummary, SelfCollisionSummary};
 
 /// What came out of a crawl.
@@ -117,23 +118,6 @@ pub struct CalibrationStop {
     pub commands: usize,
     /// Largest amount cut off, degrees, negative at the lower limit.
     pub largest_deg: f64,
-}
-
-/// A part of the robot that met an obstacle.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct PlateContact {
-    /// The part, by its name in the model.
-    pub body: String,
-    /// Kind and number of the obstacle.
-    pub obstacle: String,
-    /// How often they met.
-    pub count: usize,
-    /// When first, s since the first pull began.
-    pub first_s: f64,
-    /// How long in all, s.
-    pub seconds: f64,
-    /// Largest normal force, N.
-    pub peak_n: f64,
 }
 
 /// Highest points by part of the body, mm.

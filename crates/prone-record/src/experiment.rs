@@ -6,6 +6,7 @@
 
 mod cost;
 mod crawl;
+mod cycle_rules;
 mod limit;
 mod passage;
 mod search;
@@ -19,11 +20,11 @@ pub use cost::{
 pub use crawl::{
     CrawlExperiment, Detail, Ending, PullExperiment, SceneChoice, ServoChoice, SteeringChoice,
 };
+pub use cycle_rules::{CycleRulesChoice, LeastVerdict, NamedGait};
 pub use limit::Limit;
 pub use passage::{PassageCycle, PassageExperiment, PassageSearch};
 pub use search::{
-    CycleRulesChoice, CycleSearchExperiment, Ends, GaitForm, LeastVerdict, NamedGait,
-    PullSearchExperiment, Runs, Under, check_heights,
+    CycleSearchExperiment, Ends, GaitForm, PullSearchExperiment, Runs, Under, check_heights,
 };
 pub use source::{ChangedText, GaitText, RobotText, SceneText, TextError, TextFile};
 pub use torque_map::{MapSource, TorqueMapExperiment};

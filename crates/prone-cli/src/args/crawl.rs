@@ -68,7 +68,7 @@ pub(crate) struct CrawlRunArgs {
         value_name = "H",
         requires = "length_m",
         conflicts_with = "scene",
-        value_parser = super::passage::ceiling,
+        value_parser = super::heights::ceiling,
         allow_negative_numbers = true
     )]
     pub(crate) ceiling_mm: Option<f64>,

@@ -9,7 +9,7 @@ use prone_record::frontier::Quantity;
 #[derive(Debug, Default, clap::Args)]
 pub(crate) struct CycleRulesArgs {
     /// cycle: height below which everything stays, mm [default: none]
-    #[arg(long, value_name = "H", value_parser = super::passage::ceiling, allow_negative_numbers = true)]
+    #[arg(long, value_name = "H", value_parser = super::heights::ceiling, allow_negative_numbers = true)]
     pub(crate) ceiling_mm: Option<f64>,
     /// cycle: only cycles that can be steered, as in `prone crawl frontier --steerable`
     #[arg(long)]
@@ -23,13 +23,13 @@ pub(crate) struct CycleRulesArgs {
     pub(crate) reach: Option<f64>,
     /// cycle: farthest from the line within 6 cycles on uneven ground with joints that are off, where
     /// the heading is held, mm [default: any]
-    #[arg(long, value_name = "MM", value_parser = super::passage::height, allow_negative_numbers = true)]
+    #[arg(long, value_name = "MM", value_parser = super::heights::height, allow_negative_numbers = true)]
     pub(crate) most_drift_mm: Option<f64>,
     /// cycle: what the motors of a robot have to be able to do [default: anything]
     #[arg(long, value_enum)]
     pub(crate) verdict: Option<VerdictName>,
     /// cycle: least advance per cycle, mm [default: 10 for advance and speed, else that of robot.toml (NAO 120)]
-    #[arg(long, value_name = "MM", value_parser = super::passage::height, allow_negative_numbers = true)]
+    #[arg(long, value_name = "MM", value_parser = super::heights::height, allow_negative_numbers = true)]
     pub(crate) least_advance_mm: Option<f64>,
     /// cycle: least speed, mm/s [default: any]
     #[arg(long, value_name = "V", value_parser = speed, allow_negative_numbers = true)]

@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
-use prone::scene::{LOWEST_CEILING, taken_for_metres};
 use prone_record::experiment::{CycleSearchExperiment, PassageExperiment};
 use prone_record::frontier::Quantity;
 
+use super::heights::{ceiling, within};
 use super::named::{GaitArgs, RobotArg};
 
 #[derive(Debug, clap::Args)]
@@ -144,23 +144,6 @@ pub(crate) enum AgainstName {
     Heat,
 }
 
-/// A ceiling as typed, mm; one that is lower than any robot was typed in metres.
-pub(crate) fn ceiling(text: &str) -> Result<f64, String> {
-    let typed: Option<f64> = text.trim().parse().ok();
-    let meant = |mm: f64| Some((mm, taken_for_metres(mm / 1e3)? * 1e3));
-    if let Some((mm, meant)) = typed.and_then(meant) {
-        // Without the digits that a conversion makes up.
-        let meant = (meant * 1e9).round() / 1e9;
-        return Err(format!("{mm} mm: did you mean {meant}?"));
-    }
-    within(text, LOWEST_CEILING * 1e3, 10_000.0)
-}
-
-/// A height as typed, mm: above nothing, below any room.
-pub(crate) fn height(text: &str) -> Result<f64, String> {
-    within(text, 1.0, 10_000.0)
-}
-
 fn length(text: &str) -> Result<f64, String> {
     let (least, most) = PassageExperiment::LENGTHS_M;
     let number: f64 = text.trim().parse().map_err(|_| "not a number".to_owned())?;
@@ -196,13 +179,4 @@ fn value(text: &str) -> Result<f64, String> {
 
 fn margin(text: &str) -> Result<f64, String> {
     within(text, 0.0, 1000.0)
-}
-
-fn within(text: &str, least: f64, most: f64) -> Result<f64, String> {
-    let number: f64 = text.trim().parse().map_err(|_| "not a number".to_owned())?;
-    if (least..=most).contains(&number) {
-        Ok(number)
-    } else {
-        Err(format!("{number} mm is outside {least}..{most} mm"))
-    }
 }

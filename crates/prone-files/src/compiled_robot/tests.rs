@@ -260,14 +260,6 @@ fn limit_what_no_robot_has_is_refused_with_place_and_bound() {
     let refusals = [
         ("/robot/name", json!("")),
         ("/robot/name", json!(long)),
-        ("/robot/control/steering/yaw_sum", json!(-0.1)),
-        ("/robot/coupled_limits/0/joint", json!("Tail")),
-        ("/robot/coupled_limits/0/joint", json!("HeadYaw")),
-        ("/robot/coupled_limits/0/by", json!("Tail")),
-        ("/robot/coupled_limits/0/table_rad", json!([])),
-        ("/robot/coupled_limits/0/table_rad/1/0", json!(-3.0)),
-        ("/robot/coupled_limits/0/table_rad/1/1", json!(0.5)),
-        ("/robot/coupled_limits/0/table_rad/1/2", json!(700.0)),
         ("/robot/standing_height_m", json!(10.5)),
         ("/robot/bodies/0/parent", json!("Head")),
         ("/robot/bodies/0/joint", json!("HeadYaw")),
@@ -360,6 +352,23 @@ fn limit_what_no_robot_has_is_refused_with_place_and_bound() {
         format!("{pointer} = {value}\n    {said}\n")
     });
     insta::assert_snapshot!(lines.concat());
+}
+
+/// Limits by another joint, and the gains that hold a line.
+#[test]
+fn limit_what_no_limit_by_another_joint_and_no_gain_is() {
+    let refusals = [
+        ("/robot/control/steering/yaw_sum", json!(-0.1)),
+        ("/robot/coupled_limits/0/joint", json!("Tail")),
+        ("/robot/coupled_limits/0/joint", json!("HeadYaw")),
+        ("/robot/coupled_limits/0/by", json!("Tail")),
+        ("/robot/coupled_limits/0/table_rad", json!([])),
+        ("/robot/coupled_limits/0/table_rad/1/0", json!(-3.0)),
+        ("/robot/coupled_limits/0/table_rad/1/1", json!(0.5)),
+        ("/robot/coupled_limits/0/table_rad/1/2", json!(700.0)),
+    ];
+    let refusals = refusals.map(|(pointer, value)| refusal(&changed(pointer, value)));
+    insta::assert_snapshot!(refusals.join("\n"), @"");
 }
 
 #[test]

@@ -54,9 +54,9 @@ pub fn figure(frontier: &Frontier) -> Result<Option<Figure>, FigureError> {
         caption: format!(
             "Crawls searched for the {}, with the {} held at several values{margin}. Ours, simulated: \
              friction 0.7, the manufacturer's effort and joint limits on, 2.5 ms steps. Robust: without \
-             touching the ceiling, it keeps 80 % of its advance at friction 0.4 and 1, 0.8 and 1.7 times \
-             its duration and with 1 ms steps. Ideal: it keeps the rules of its search, and not that. \
-             Heat is that with normal servos.",
+             touching the ceiling, it keeps three quarters of its advance in every corner, at 0.8 and \
+             1.7 times its duration and with 1 ms steps. Ideal: it keeps the rules of its search, and \
+             not that. Heat is that with normal servos.",
             match frontier.objective {
                 CycleObjective::Heat => "least heat per metre",
                 CycleObjective::HeatRate => "least heat per second",

@@ -58,15 +58,7 @@ pub fn of(
         .map(|side| &robot.joints[side.shoulder.0].name);
     let of_shoulders = joints.iter().filter(|it| shoulders.contains(&&it.joint));
     let at_limit = of_shoulders.map(|it| it.saturated_share);
-    let contacts = crawl.touches.iter().map(|touch| PlateContact {
-        body: robot.bodies[touch.body.0].name.clone(),
-        obstacle: obstacle_name(world.obstacles(), touch.obstacle),
-        count: touch.count,
-        first_s: touch.first,
-        seconds: touch.seconds,
-        peak_n: touch.peak,
-    });
-    let contacts: Vec<PlateContact> = contacts.collect();
+    let contacts = plate_contacts(world, crawl);
     let arrived = until_past.map(|_| crawl.arrived);
     let nearest = crawl.nearest.as_ref().map(|nearest| SelfCollisionSummary {
         shapes: [nearest.shapes.0.clone(), nearest.shapes.1.clone()],
@@ -134,6 +126,19 @@ pub fn of(
         calibration_stops: stops.collect(),
         per_cycle,
     })
+}
+
+fn plate_contacts(world: &World, crawl: &Crawl) -> Vec<PlateContact> {
+    let bodies = &world.robot().bodies;
+    let contacts = crawl.touches.iter().map(|touch| PlateContact {
+        body: bodies[touch.body.0].name.clone(),
+        obstacle: obstacle_name(world.obstacles(), touch.obstacle),
+        count: touch.count,
+        first_s: touch.first,
+        seconds: touch.seconds,
+        peak_n: touch.peak,
+    });
+    contacts.collect()
 }
 
 /// Efficiency of the gears in a world.

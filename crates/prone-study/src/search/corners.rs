@@ -14,7 +14,7 @@ use std::fmt;
 
 use prone::gait::cycle::TimeScale;
 use prone::regime::{MotorServo, Regime};
-use prone::robot::{JointAngles, JointId, Robot};
+use prone::robot::{JointAngles, JointId, Robot, SideLayout};
 use prone::scene::{Scene, SideFriction};
 use prone_optim::Random;
 use prone_record::frontier::SettingKind;
@@ -130,7 +130,7 @@ pub fn settings(
 pub fn offsets(robot: &Robot, largest: f64, seed: u64) -> JointAngles {
     let mut random = Random::new(seed);
     let mut offsets = JointAngles::zero(robot);
-    let chain = robot.chain.sides().map(|side| side.commanded_joints());
+    let chain = robot.chain.sides().map(SideLayout::commanded_joints);
     let chain: Vec<JointId> = chain.into_iter().flatten().collect();
     let all = (0..robot.joints.len()).map(JointId);
     let others = all.filter(|joint| !chain.contains(joint));

@@ -364,8 +364,10 @@ fn check(
         }
     }
     for point in points {
-        let reason = point.at.and_then(|mm| too_low(robot, mm * 1e-3));
-        if let (Some(ceiling_mm), Some(reason)) = (point.at, reason) {
+        // What else is held is no height.
+        let ceiling_mm = point.at.filter(|_| point.height.is_finite());
+        let reason = ceiling_mm.and_then(|mm| too_low(robot, mm * 1e-3));
+        if let (Some(ceiling_mm), Some(reason)) = (ceiling_mm, reason) {
             return Err(CycleSearchError::TooLow {
                 ceiling_mm,
                 robot: robot.name.clone(),

@@ -39,7 +39,7 @@ mod error;
 mod plan;
 
 pub use checked::{CheckedCycle, FastestJoint, RecoveryPath};
-pub use error::CycleError;
+pub use error::{BeyondCoupled, CycleError};
 
 use std::collections::BTreeMap;
 

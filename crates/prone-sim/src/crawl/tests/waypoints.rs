@@ -1,5 +1,7 @@
 //! Cycles of waypoints alone, and crawls that end where they touch something.
 
+use std::collections::BTreeMap;
+
 use prone::gait::LimitsPolicy;
 use prone::gait::cycle::{Approach, Cycle, Easing, Waypoint};
 use prone::robot::JointAngles;
@@ -9,6 +11,9 @@ use super::*;
 
 /// Time between two postures of a pull that is written as waypoints, s.
 const STEP: f64 = 0.05;
+
+/// How many of them a pull of a second has.
+const STEPS: u32 = 20;
 
 /// A cycle with its pull written as waypoints, so close that they leave nothing out.
 fn without_its_pull(world: &World, cycle: &Cycle) -> Cycle {
@@ -24,16 +29,16 @@ fn without_its_pull(world: &World, cycle: &Cycle) -> Cycle {
         name,
         approach,
         joints: joints(posture),
-        turn: Default::default(),
-        shift: Default::default(),
+        turn: BTreeMap::new(),
+        shift: BTreeMap::new(),
     };
     let step = Approach {
         seconds: STEP,
         easing: Easing::Linear,
     };
-    let count = (planned.pull_seconds() / STEP).round() as usize;
-    let pulled = (1..=count).map(|k| {
-        let posture = planned.pull_at(k as f64 * STEP);
+    assert!((planned.pull_seconds() - f64::from(STEPS) * STEP).abs() < 1e-12);
+    let pulled = (1..=STEPS).map(|k| {
+        let posture = planned.pull_at(f64::from(k) * STEP);
         waypoint(format!("pull {k}"), step, &posture)
     });
     let approach = cycle.pull.as_ref().unwrap().approach;
@@ -99,7 +104,7 @@ fn a_crawl_that_ends_at_a_touch_ends_at_its_first_one() {
         times.fold(f64::INFINITY, f64::min)
     };
     assert!(goes_on.arrived && !ends.arrived);
-    assert_eq!(first(&ends), first(&goes_on));
+    assert!((first(&ends) - first(&goes_on)).abs() < 1e-12);
     assert!(goes_on.effort.seconds > ends.effort.seconds + 0.1);
     let late = ends.effort.seconds - first(&ends);
     let step = world.regime().time_step;

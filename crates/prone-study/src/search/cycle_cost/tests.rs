@@ -278,6 +278,7 @@ fn settings_after_a_broken_one_are_not_tried() {
     let mut settings = settings::for_advance(&robot).unwrap();
     settings.push(settings[0].clone());
     settings[1].spec.role = Role::Keep(0.5);
+    settings[1].spec.scale = TimeScale::new(1.7).unwrap();
     let rules = CycleRules {
         ceiling: 0.1,
         ..ANYHOW
@@ -292,6 +293,10 @@ fn settings_after_a_broken_one_are_not_tried() {
     let high: f64 = whole.trials.iter().map(too_high).sum();
     near(whole.violation, high);
     near(short.value, -short.trials[0].advance);
+    // Where its advance has to be kept, it counts: the value is that of the worst of both.
+    let advances = [&whole.trials[0], &whole.trials[1]].map(|trial| trial.advance);
+    assert!((advances[0] - advances[1]).abs() > 1e-4, "{advances:?}");
+    near(whole.value, -advances[0].min(advances[1]));
 }
 
 /// What happens in a setting is a reason too, with the setting's name.

@@ -130,7 +130,7 @@ impl Candidate {
         }
         if run.top.0 * 1e3 > self.top_mm {
             self.top_mm = millimetres(run.top.0);
-            self.top_part = run.top.1.name().to_owned();
+            run.top.1.name().clone_into(&mut self.top_part);
             self.margin_mm = millimetres(under.height - run.top.0);
         }
         self.worst_mm_per_cycle = self.worst_mm_per_cycle.min(run.advance * 1e3);

@@ -29,7 +29,7 @@ pub enum CycleError {
         /// The joint's name.
         joint: String,
         /// The joints that the robot has.
-        known: Vec<String>,
+        known: Box<[String]>,
     },
     /// A joint that the chain commands already.
     #[error("cycle {cycle}, {place}: {joint} belongs to the chain, which moves it")]
@@ -88,26 +88,15 @@ pub enum CycleError {
     },
     /// A joint passes the limit that another joint's angle sets it, and the policy is to refuse.
     #[error(
-        "cycle {cycle}, {place}: {joint} {angle:.4} rad is outside {lower:.4}..{upper:.4}, its limits while {by} is at {at:.4} rad; \
-         `limits = \"clamp\"` in the file would stop it there"
+        "cycle {cycle}, {place}: {beyond}; `limits = \"clamp\"` in the file would stop it there"
     )]
     Coupled {
         /// The cycle's name.
         cycle: String,
         /// The waypoint that it is on its way to.
         place: String,
-        /// The joint's name.
-        joint: String,
-        /// The joint that sets the limits.
-        by: String,
-        /// Where that one is, rad.
-        at: f64,
-        /// What is asked for, rad.
-        angle: f64,
-        /// The lower limit, rad.
-        lower: f64,
-        /// The upper limit, rad.
-        upper: f64,
+        /// What lies beyond, boxed as all other errors are smaller.
+        beyond: Box<BeyondCoupled>,
     },
     /// The stops are those of another robot.
     #[error("cycle {cycle}: {stops} stops are given, robot {robot} has {joints} joints")]
@@ -169,6 +158,26 @@ pub enum CycleError {
         /// How many joints that one's robot has.
         others: usize,
     },
+}
+
+/// A joint that is beyond the limits which another joint's angle sets it.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error(
+    "{joint} {angle:.4} rad is outside {lower:.4}..{upper:.4}, its limits while {by} is at {at:.4} rad"
+)]
+pub struct BeyondCoupled {
+    /// The joint's name.
+    pub joint: String,
+    /// The joint that sets the limits.
+    pub by: String,
+    /// Where that one is, rad.
+    pub at: f64,
+    /// What is asked for, rad.
+    pub angle: f64,
+    /// The lower limit, rad.
+    pub lower: f64,
+    /// The upper limit, rad.
+    pub upper: f64,
 }
 
 impl CycleError {

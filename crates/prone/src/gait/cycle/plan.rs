@@ -73,7 +73,7 @@ impl CheckedCycle {
                 });
                 (first.joints.clone(), first.root_pitch)
             }
-            _ => (planner.last_posture(&stretches)?, FLAT_ON_THE_BELLY),
+            _ => (planner.last_posture(&stretches), FLAT_ON_THE_BELLY),
         };
         if cycle.rest > 0.0 {
             stretches.push(Stretch {
@@ -231,7 +231,7 @@ impl Planner<'_> {
 
     /// The posture at the end of the waypoints, which a cycle without a pull begins with: joints
     /// that none of them names are at zero, or at the stop that is next to it.
-    fn last_posture(&self, stretches: &[Stretch]) -> Result<JointAngles, CycleError> {
+    fn last_posture(&self, stretches: &[Stretch]) -> JointAngles {
         let mut posture = JointAngles::zero(self.robot).within(self.stops);
         for stretch in stretches {
             posture = posture.map(|joint, now| stretch.targets[joint.0].unwrap_or(now));
@@ -240,7 +240,7 @@ impl Planner<'_> {
             let range = limit.range(posture[limit.by]);
             posture[limit.joint] = range.clamp(posture[limit.joint]);
         }
-        Ok(posture)
+        posture
     }
 
     fn within_stop(

@@ -2,7 +2,7 @@
 
 use super::super::super::trajectory::note;
 use super::super::super::{Clamp, LimitsPolicy};
-use super::super::{CheckedCycle, CycleError, RecoveryPath};
+use super::super::{BeyondCoupled, CheckedCycle, CycleError, RecoveryPath};
 use super::Planner;
 use crate::robot::JointAngles;
 
@@ -56,12 +56,14 @@ impl Planner<'_> {
                 return Err(CycleError::Coupled {
                     cycle: self.cycle.name.clone(),
                     place: place.to_owned(),
-                    joint: self.robot.joints[limit.joint.0].name.clone(),
-                    by: self.robot.joints[limit.by.0].name.clone(),
-                    at: posture[limit.by],
-                    angle,
-                    lower: range.lower,
-                    upper: range.upper,
+                    beyond: Box::new(BeyondCoupled {
+                        joint: self.robot.joints[limit.joint.0].name.clone(),
+                        by: self.robot.joints[limit.by.0].name.clone(),
+                        at: posture[limit.by],
+                        angle,
+                        lower: range.lower,
+                        upper: range.upper,
+                    }),
                 });
             }
             note(clamps, limit.joint, excess, share);

@@ -431,22 +431,17 @@ fn across(limits: LimitsPolicy) -> Cycle {
 #[test]
 fn limits_by_another_joint_hold_between_waypoints_too() {
     let error = plan_of(&coupled(), &across(LimitsPolicy::Refuse), Steer::STRAIGHT).unwrap_err();
-    let CycleError::Coupled {
-        place,
-        joint,
-        by,
-        at,
-        angle,
-        upper,
-        ..
-    } = &error
-    else {
+    let CycleError::Coupled { place, beyond, .. } = &error else {
         panic!("{error}");
     };
     assert_eq!(place, "waypoint late");
-    assert_eq!((joint.as_str(), by.as_str()), ("Lroll", "Lknee"));
+    assert_eq!(
+        (beyond.joint.as_str(), beyond.by.as_str()),
+        ("Lroll", "Lknee")
+    );
+    let (upper, expected) = (beyond.upper, 1.0 - beyond.at);
     assert!(
-        angle > upper && (upper - (1.0 - at)).abs() < 1e-12,
+        beyond.angle > upper && (upper - expected).abs() < 1e-12,
         "{error}"
     );
     let free = plan(&across(LimitsPolicy::Refuse), Steer::STRAIGHT);
@@ -494,11 +489,11 @@ fn limits_by_another_joint_hold_at_each_waypoint() {
         waypoint.approach.easing = Easing::Linear;
     }
     let error = plan_of(&coupled(), &cycle, Steer::STRAIGHT).unwrap_err();
-    let CycleError::Coupled { place, angle, .. } = &error else {
+    let CycleError::Coupled { place, beyond, .. } = &error else {
         panic!("{error}");
     };
     assert_eq!(place, "waypoint peak");
-    assert!((angle - 0.502).abs() < 1e-12, "{angle}");
+    assert!((beyond.angle - 0.502).abs() < 1e-12, "{error}");
     assert_eq!(error.place(), "peak");
     // The same as the last waypoint: the extension is stopped where the limit is.
     cycle.limits = LimitsPolicy::Clamp;
