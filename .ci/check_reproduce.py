@@ -226,6 +226,19 @@ def check_records(folder):
         check(size < largest, f"{path}: {size} bytes")
 
 
+def check_table(folder):
+    """The crawls under the table say with which force each part touches, and the hardest in one line."""
+    summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    check(len(summary["table"]) == 2, f"{folder}: {len(summary['table'])} crawls under the table")
+    for crawl in summary["table"]:
+        ours = crawl["ours"]
+        name = f"{folder}: the crawl of {crawl['published']['cycles']} cycles"
+        forces = [contact["peak_n"] for contact in ours["contacts"]]
+        check(forces and min(forces) > 0, f"{name}: forces {forces}")
+        outcome = ours["outcome"]
+        check(outcome["touched"] and outcome["largest_contact_n"] == max(forces), f"{name}: {outcome}")
+
+
 def check_costs(path):
     costs = {
         (row["gait"], float(row["duration_s"])): float(row["cost_n2m2s"])
@@ -281,6 +294,7 @@ def main(folder, one_thread):
         for torques, weight_n in WEIGHT_N.items():
             check_torques(folder / torques, weight_n)
         check_records(folder)
+        check_table(folder)
         for name in ("costs.csv", f"costs-{BESIDE}.csv"):
             check_costs(folder / name)
         check_squeeze(folder / "squeeze.csv")

@@ -81,8 +81,16 @@ fn print(listed: &[Listed], out: &mut dyn Write) -> Result<()> {
             let left = (width + 2).saturating_sub(title.len());
             write!(
                 out,
-                "{:left$}{:>9}{:>10}{:>8}{:>10}  {:<16}{:>8}{:>7}",
-                "", "mm high", "mm/cycle", "mm/s", "heat s/m", "on a robot", "head N", "turns"
+                "{:left$}{:>9}{:>6}{:>10}{:>7}{:>10}  {:<15}{:>8}{:>7}",
+                "",
+                "mm high",
+                "wide",
+                "mm/cycle",
+                "mm/s",
+                "heat s/m",
+                "on a robot",
+                "head N",
+                "turns"
             )?;
         }
         writeln!(out)?;
@@ -117,13 +125,15 @@ fn row(figures: &CycleFigures, turns: &str) -> String {
         mm_per_s,
         heat_per_metre_s,
         heat_per_second: _,
+        width_mm,
         verdict,
         head_n,
     } = figures;
     let heat = heat_per_metre_s.map_or_else(|| "–".to_owned(), |heat| format!("{heat:.0}"));
     let verdict = verdict.as_deref().unwrap_or("unknown");
+    let wide = width_mm.map_or_else(|| "–".to_owned(), |width| format!("{width:.0}"));
     format!(
-        "{height_mm:>9.1}{mm_per_cycle:>10.1}{mm_per_s:>8.1}{heat:>10}  {verdict:<16}{head_n:>8.1}{turns:>7}"
+        "{height_mm:>9.1}{wide:>6}{mm_per_cycle:>10.1}{mm_per_s:>7.1}{heat:>10}  {verdict:<15}{head_n:>8.1}{turns:>7}"
     )
 }
 

@@ -111,8 +111,8 @@ fn print_named(passage: &Passage, named: &Candidate, out: &mut dyn Write) -> std
     let verdict = named.verdict.as_deref().unwrap_or("unknown");
     writeln!(
         out,
-        "  {steers}; at most {:.0} mm off the line; on a robot's motors: {verdict}",
-        named.drift_mm
+        "  {:.0} mm wide; {steers}; at most {:.0} mm off the line; on a robot's motors: {verdict}",
+        named.width_mm, named.drift_mm
     )?;
     let steering = if named.steers { " --heading-hold" } else { "" };
     writeln!(

@@ -91,6 +91,14 @@ fn a_robot_s_own_gaits_go_before_those_that_ship() {
     assert_eq!(own, knees(&["least-torque"]));
     assert_ne!(own, knees(&["nominal"]));
 
+    let list = format!("`prone list --robot {}` shows all", at(&home, "toddler"));
+    for command in [["gait", "show"], ["crawl", "run"]] {
+        let named = |name: &str| refused(&[&command[..], &[name, "--robot", &robot]].concat());
+        assert!(named("gallop").contains(&list), "{}", named("gallop"));
+        // A cycle of its own is offered as those that ship are.
+        let unknown = named("uors");
+        assert!(unknown.contains("did you mean \"ours\"?"), "{unknown}");
+    }
     // Names that are nearly there are those of the robot's own, too.
     let own = "did you mean \"ours\"";
     let unknown = |command: &[&str], robot: &str| refused(&[command, &["--robot", robot]].concat());

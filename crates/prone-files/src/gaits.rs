@@ -124,9 +124,25 @@ impl Gaits {
         }
         let path = Path::new(asked);
         if !path.exists() {
-            return Err(UnknownName::new(kind, asked, self.names(kind)?).into());
+            return Err(self.unknown(kind, asked)?.into());
         }
         Ok(GaitText::read(path)?)
+    }
+
+    /// The error for a name that no gait of a kind has.
+    ///
+    /// # Errors
+    /// [`ReadError`] where the folder or one of its files cannot be read.
+    fn unknown(&self, kind: NameKind, asked: &str) -> Result<UnknownName, ReadError> {
+        let unknown = UnknownName::new(kind, asked, self.names(kind)?);
+        let home = match self {
+            Self::Folder(folder) => folder.parent(),
+            Self::None | Self::Shipped(_) => None,
+        };
+        Ok(match home {
+            Some(home) => unknown.with_those_of(home),
+            None => unknown,
+        })
     }
 
     /// Names by which gaits of a kind are found, the robot's own first; none of what is no gait.
@@ -278,8 +294,10 @@ mod tests {
         let pull = pull.to_str().unwrap();
         assert!(said(GaitKind::Cycle, pull).starts_with(&format!("{pull} is a pull alone; ")));
         // Only names of the kind that is needed are offered.
-        let offered =
-            "there is no cycle \"low-174\"; did you mean \"low-175\"? `prone list` shows all";
+        let offered = format!(
+            "there is no cycle \"low-174\"; did you mean \"low-175\"? `prone list --robot {}` shows all",
+            home.path().display()
+        );
         assert_eq!(said(GaitKind::Cycle, "low-174"), offered);
         assert!(!said(GaitKind::Pull, "low-174").contains("low-175"));
         // A robot's own are offered too.

@@ -53,6 +53,8 @@ pub struct UnknownName {
     pub asked: String,
     /// Where it was looked for, if that is one place: a robot's name, or a model's file.
     pub place: Option<String>,
+    /// The folder of the robot whose own names are among those that are known.
+    pub robot: Option<String>,
     /// What may have been meant, if a known name is near.
     pub nearest: Option<String>,
     /// The names that there are.
@@ -104,6 +106,7 @@ impl UnknownName {
             kind,
             asked: asked.to_owned(),
             place: None,
+            robot: None,
             nearest: nearest(meant, &known).map(str::to_owned),
             known,
         }
@@ -114,6 +117,15 @@ impl UnknownName {
     pub fn within(self, place: &str) -> Self {
         Self {
             place: Some(place.to_owned()),
+            ..self
+        }
+    }
+
+    /// The same, looked for among the names of a robot's own too, which lie in its folder.
+    #[must_use]
+    pub fn with_those_of(self, robot: &Path) -> Self {
+        Self {
+            robot: Some(robot.display().to_string()),
             ..self
         }
     }
@@ -162,10 +174,15 @@ impl fmt::Display for UnknownName {
             write!(f, " in {place}")?;
         }
         write!(f, "{}", self.hint())?;
-        match (self.kind.is_listed(), &self.nearest) {
-            (false, _) => Ok(()),
-            (true, Some(_)) => write!(f, " `prone list` shows all"),
-            (true, None) => write!(f, "; `prone list` shows all"),
+        if !self.kind.is_listed() {
+            return Ok(());
+        }
+        if self.nearest.is_none() {
+            write!(f, ";")?;
+        }
+        match &self.robot {
+            Some(robot) => write!(f, " `prone list --robot {robot}` shows all"),
+            None => write!(f, " `prone list` shows all"),
         }
     }
 }

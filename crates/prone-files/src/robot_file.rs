@@ -252,6 +252,8 @@ pub struct SteeringTable {
     pub lateral_rad_m: Number,
     /// Heading error per sum of lateral offsets, rad/m.
     pub lateral_sum_rad_m: Number,
+    /// Heading error per lateral offset of cycles that can be shifted, rad/m.
+    pub aside_rad_m: Number,
     /// Turn commanded per sum of heading errors, of cycles that can be shifted.
     pub yaw_sum: Number,
 }

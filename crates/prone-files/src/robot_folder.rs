@@ -389,6 +389,7 @@ fn check_names(
                 kind.name_kind().noun()
             ),
             None => {
+                // Without its folder: a robot whose file is wrong cannot be listed.
                 let known = gaits.names(kind.name_kind())?;
                 UnknownName::new(kind.name_kind(), name.get_ref(), known).to_string()
             }

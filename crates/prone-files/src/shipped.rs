@@ -102,22 +102,29 @@ static NAO_PULLS: [(&str, &str); 8] = [
     of_nao!("least-peak"),
 ];
 
-/// The cycles with the published postures, then those that keep low and can be steered, then those
-/// that come farthest under a ceiling, and those of little motor heat and of least torque asked of
-/// the shoulders.
-static NAO_CYCLES: [(&str, &str); 12] = [
+/// The cycles with the published postures, then those that keep low, then those for a robot's motors,
+/// those that are fastest under a ceiling on good ground, those of little motor heat and of least torque
+/// asked of the shoulders, and chains.
+static NAO_CYCLES: [(&str, &str); 19] = [
     of_nao!("thesis-nominal"),
     of_nao!("thesis-optimal"),
     of_nao!("low-200"),
     of_nao!("low-175"),
     of_nao!("low-165"),
-    of_nao!("hip-10"),
+    of_nao!("low-150"),
+    of_nao!("low-135"),
+    of_nao!("low-125"),
+    of_nao!("robot"),
+    of_nao!("robot-200"),
     of_nao!("far-200"),
     of_nao!("far-183"),
     of_nao!("far-165"),
     of_nao!("least-heat"),
+    of_nao!("coolest"),
     of_nao!("efficient"),
     of_nao!("gentle"),
+    of_nao!("chain-200"),
+    of_nao!("hip-10"),
 ];
 
 impl FamilySource {

@@ -94,6 +94,8 @@ pub struct CycleFigures {
     pub heat_per_metre_s: Option<f64>,
     /// Motor heat per second; nothing where a motor is not known.
     pub heat_per_second: Option<f64>,
+    /// The widest the robot gets about its own heading, mm.
+    pub width_mm: Option<f64>,
     /// `continuous`, `limited` or `not on a robot`; nothing where a motor is not known.
     pub verdict: Option<String>,
     /// Largest mean force on the head over 20 ms, N.
@@ -197,6 +199,7 @@ impl CycleFigures {
             mm_per_s: summary.mm_per_s,
             heat_per_metre_s: summary.heat_per_metre_s,
             heat_per_second: summary.heat_per_second,
+            width_mm: summary.width_mm,
             verdict: summary.verdict.duty.clone(),
             head_n: summary.ground.head.peak_n,
         }

@@ -12,10 +12,11 @@
 //! growing while the command is at its limit.
 //!
 //! A cycle that can be shifted aside without being turned is held by two commands, each for its own
-//! error, with the sum of ψ and its gain c:
+//! error, with the sum of ψ and its gain c. Where a shift is not enough, the robot heads towards the line
+//! (e), less steeply than without a shift:
 //!
 //! ```text
-//! u = clip(−k (ψ + c Σ ψ), ±limit)                                    (2)
+//! u = clip(−k (ψ + e y + c Σ ψ), ±limit)                              (2)
 //! v = clip(−(a y + b Σ y), ±shift limit)                              (3)
 //! ```
 
@@ -103,7 +104,9 @@ impl HeadingHold {
         let gains = self.gains;
         let heading = shorter(bearing.yaw);
         let turn = Held {
-            wanted: |sum: f64| -gains.yaw * (heading + gains.yaw_sum * sum),
+            wanted: |sum: f64| {
+                -gains.yaw * (heading + gains.aside * bearing.y + gains.yaw_sum * sum)
+            },
             limit: self.limit,
         };
         let shift = Held {
@@ -123,6 +126,7 @@ impl HeadingHold {
             yaw,
             lateral,
             lateral_sum,
+            aside: _,
             yaw_sum: _,
         } = self.gains;
         let heading = shorter(bearing.yaw);
@@ -185,6 +189,7 @@ mod tests {
         yaw: 0.9,
         lateral: 3.5,
         lateral_sum: 0.35,
+        aside: 0.5,
         yaw_sum: 0.2,
     };
 
@@ -198,8 +203,16 @@ mod tests {
             joints: std::collections::BTreeMap::new(),
         };
         let steer = |y, yaw| HeadingHold::of(GAINS, &steering).steer(Bearing { x: 0.0, y, yaw });
-        // Left of the line it moves to the right and does not turn; turned, it turns back.
-        assert!(steer(0.01, 0.0).shift < 0.0 && steer(0.01, 0.0).turn.abs() < 1e-15);
+        // Left of the line it moves to the right and turns little; turned, it turns back.
+        let (with, without) = (
+            steer(0.01, 0.0),
+            HeadingHold::new(GAINS, 0.2).steer(Bearing {
+                x: 0.0,
+                y: 0.01,
+                yaw: 0.0,
+            }),
+        );
+        assert!(with.shift < 0.0 && with.turn < 0.0 && with.turn > without.turn);
         assert!(steer(0.0, 0.05).turn < 0.0 && steer(0.0, 0.05).shift.abs() < 1e-15);
         assert!(
             (steer(1.0, 0.0).shift + 0.1).abs() < f64::EPSILON,

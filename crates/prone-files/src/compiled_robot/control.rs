@@ -58,6 +58,7 @@ struct SteeringDocument {
     yaw: f64,
     lateral_rad_m: f64,
     lateral_sum_rad_m: f64,
+    aside_rad_m: f64,
     yaw_sum: f64,
 }
 
@@ -152,6 +153,7 @@ impl ControlDocument {
                 yaw: control.steering.yaw,
                 lateral_rad_m: control.steering.lateral,
                 lateral_sum_rad_m: control.steering.lateral_sum,
+                aside_rad_m: control.steering.aside,
                 yaw_sum: control.steering.yaw_sum,
             },
             uphill_rad: control.uphill,
@@ -172,6 +174,7 @@ impl ControlDocument {
                 yaw: gain("yaw", steering.yaw)?,
                 lateral: gain("lateral_rad_m", steering.lateral_rad_m)?,
                 lateral_sum: gain("lateral_sum_rad_m", steering.lateral_sum_rad_m)?,
+                aside: gain("aside_rad_m", steering.aside_rad_m)?,
                 yaw_sum: gain("yaw_sum", steering.yaw_sum)?,
             },
             uphill: positive("uphill_rad", self.uphill_rad, bounds::SLOPE)?,

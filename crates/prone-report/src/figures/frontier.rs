@@ -54,8 +54,9 @@ pub fn figure(frontier: &Frontier) -> Result<Option<Figure>, FigureError> {
         caption: format!(
             "Crawls searched for the {}, with the {} held at several values{margin}. Ours, simulated: \
              friction 0.7, the manufacturer's effort and joint limits on, 2.5 ms steps. Robust: without \
-             touching the ceiling, it keeps 80 % of its advance in every corner, at 0.8 and 1.7 times \
-             its duration and with 1 ms steps. Ideal: it keeps the rules of its search, and not that.",
+             touching the ceiling, it keeps three quarters of its advance in every corner, at 0.8 and \
+             1.7 times its duration and with 1 ms steps. Ideal: it keeps the rules of its search, and \
+             not that. Heat is that with normal servos.",
             match frontier.objective {
                 CycleObjective::Heat => "least heat per metre",
                 CycleObjective::HeatRate => "least heat per second",
@@ -101,12 +102,8 @@ struct Search {
 impl Search {
     /// What is best is robust rather than ideal, then best by the search's own measure.
     fn beats(&self, other: &Self) -> bool {
-        let rank = |standing| match standing {
-            Standing::Robust => 2,
-            Standing::Ideal => 1,
-            Standing::Broken => 0,
-        };
-        (rank(self.standing), -self.value) > (rank(other.standing), -other.value)
+        let rank = |search: &Self| (search.standing == Standing::Robust, -search.value);
+        rank(self) > rank(other)
     }
 }
 
@@ -123,7 +120,9 @@ fn panel(frontier: &Frontier, quantity: Quantity) -> Option<Panel> {
     };
     let searches: Vec<Search> = frontier.found.iter().filter_map(search).collect();
     let mut best: Vec<&Search> = Vec::new();
-    for search in &searches {
+    // What breaks rules is no point of the frontier.
+    let kept = |search: &&Search| search.standing != Standing::Broken;
+    for search in searches.iter().filter(kept) {
         let same = |old: &&mut &Search| old.at.0.total_cmp(&search.at.0).is_eq();
         match best.iter_mut().find(same) {
             Some(old) if search.beats(old) => *old = search,
@@ -132,8 +131,11 @@ fn panel(frontier: &Frontier, quantity: Quantity) -> Option<Panel> {
         }
     }
     best.sort_by(|a, b| a.at.0.total_cmp(&b.at.0));
-    let best = best.into_iter().map(|search| search.at).collect();
-    let mut curves = vec![Curve::new(best, line())];
+    let best: Vec<Point> = best.into_iter().map(|search| search.at).collect();
+    let mut curves = Vec::new();
+    if !best.is_empty() {
+        curves.push(Curve::new(best, line()));
+    }
     curves.extend(searches.iter().map(|search| Curve {
         points: vec![search.at],
         stroke: Stroke::solid(gait_stroke(0).colour, CURVE_WIDTH),

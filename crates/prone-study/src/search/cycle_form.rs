@@ -20,8 +20,8 @@ const CURVE_REACH: f64 = 0.35;
 const JOINT_REACH: f64 = 0.5;
 /// By which factor times may.
 const TIME_REACH: f64 = 1.4;
-/// How far the factors of a waypoint's turn may.
-const TURN_REACH: f64 = 0.5;
+/// How far the factors of a waypoint's turn and shift may.
+const TURN_REACH: f64 = 1.0;
 
 /// What of a cycle is free, and how far.
 #[derive(Debug, Clone, Copy, PartialEq)]

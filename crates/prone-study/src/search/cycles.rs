@@ -103,7 +103,7 @@ impl CycleRun {
             Some(_) => check_steering(&self.steering, &cycle),
         };
         if steering.is_err() {
-            cycle.steering = None;
+            cycle.forget_steering();
         }
         let under = job
             .at

@@ -23,7 +23,7 @@ pub enum Role {
 }
 
 /// Share of the first setting's advance that a confirmation asks for.
-pub const HOLDS: f64 = 0.8;
+pub const HOLDS: f64 = 0.75;
 
 /// Share of the advance that is left where it turns as hard as it can.
 const TURNING: f64 = 0.5;

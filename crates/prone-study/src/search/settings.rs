@@ -29,7 +29,7 @@ const HALF_TURN: f64 = 0.035;
 /// Cycles in which a held heading shows how far the robot comes off its line: a metre or two.
 const HELD_CYCLES: usize = 6;
 /// Share of the advance that a search keeps where it has to hold: a confirmation asks for less.
-const KEEP: f64 = 0.85;
+const KEEP: f64 = 0.78;
 
 /// The corners of a search, those first in which candidates fail most often: sticky ground, servos
 /// that give way, uneven ground with joints that are off, play, late commands. What fails in one is
@@ -38,11 +38,11 @@ const SEARCHED: [Corner; 8] = [
     Corner::Friction(1.0),
     Corner::Uneven {
         friction: UNEVEN[0],
-        seed: 1,
+        seed: 5,
     },
     Corner::Uneven {
         friction: UNEVEN[1],
-        seed: 2,
+        seed: 4,
     },
     Corner::Stiffness(0.5),
     Corner::Backlash { degrees: 1.0 },

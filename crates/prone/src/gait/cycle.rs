@@ -274,6 +274,15 @@ impl Cycle {
     pub fn turns_at_waypoints(&self) -> bool {
         self.waypoints.iter().any(|it| !it.turn.is_empty())
     }
+
+    /// Takes its steering away, with what it adds to the waypoints.
+    pub fn forget_steering(&mut self) {
+        self.steering = None;
+        for waypoint in &mut self.waypoints {
+            waypoint.turn.clear();
+            waypoint.shift.clear();
+        }
+    }
 }
 
 #[cfg(test)]

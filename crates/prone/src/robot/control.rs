@@ -29,6 +29,8 @@ pub struct SteeringGains {
     pub lateral: f64,
     /// b, heading error per sum of the lateral offsets over the cycles, rad/m.
     pub lateral_sum: f64,
+    /// e, heading error per lateral offset of cycles that can be shifted, rad/m.
+    pub aside: f64,
     /// c, heading error per sum of the heading errors over the cycles, of cycles that can be shifted.
     pub yaw_sum: f64,
 }

@@ -166,6 +166,7 @@ pub(crate) fn two_armed() -> Robot {
                 yaw: 0.8,
                 lateral: 3.0,
                 lateral_sum: 0.3,
+                aside: 0.5,
                 yaw_sum: 0.2,
             },
             uphill: 0.03,

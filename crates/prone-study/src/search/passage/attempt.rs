@@ -33,6 +33,8 @@ pub(super) struct Attempt {
     pub(super) advance: f64,
     /// Highest point, m, and of which part of the body.
     pub(super) top: (f64, BodyPart),
+    /// The widest it got about its own heading, m.
+    pub(super) width: f64,
     /// Farthest from the line of the start, m, at the end of a cycle.
     pub(super) drift: f64,
     /// Largest mean force on the head over 20 ms, N.
@@ -133,6 +135,7 @@ fn measured(setting: &Setting, crawl: &Crawl) -> Attempt {
         distance: distance.map_or(0.0, |(last, from)| last.to.x - from.x),
         advance: path / crawl.cycles.len().max(1) as f64,
         top: (crawl.tops.highest(), crawl.tops.part()),
+        width: crawl.sides.width(),
         drift: drift.fold(0.0, f64::max),
         head: crawl.ground.head_peak(),
         verdict: Verdict::from_load(&load).ok(),

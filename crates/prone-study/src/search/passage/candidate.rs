@@ -40,6 +40,8 @@ pub struct Candidate {
     pub top_part: String,
     /// What is left below the ceiling there, mm; negative where it does not fit.
     pub margin_mm: f64,
+    /// The widest it gets about its own heading where everything is as in the model, mm.
+    pub width_mm: f64,
     /// Advance per cycle where everything is as in the model, mm.
     pub mm_per_cycle: f64,
     /// Least advance per cycle of all its runs, mm.
@@ -98,6 +100,7 @@ impl Candidate {
             top_mm: millimetres(run.top.0),
             top_part: run.top.1.name().to_owned(),
             margin_mm: millimetres(under.height - run.top.0),
+            width_mm: millimetres(run.width),
             mm_per_cycle: run.advance * 1e3,
             worst_mm_per_cycle: run.advance * 1e3,
             mm_per_s: open.speed() * 1e3,
