@@ -58,7 +58,7 @@ pub struct UnknownName {
     /// What may have been meant, if a known name is near.
     pub nearest: Option<String>,
     /// The names that there are.
-    pub known: Vec<String>,
+    pub known: Box<[String]>,
 }
 
 impl NameKind {
@@ -96,7 +96,7 @@ impl UnknownName {
         asked: &str,
         known: impl IntoIterator<Item = N>,
     ) -> Self {
-        let known: Vec<String> = known.into_iter().map(Into::into).collect();
+        let known: Box<[String]> = known.into_iter().map(Into::into).collect();
         let meant = if kind.may_be_a_file() {
             stem(asked)
         } else {

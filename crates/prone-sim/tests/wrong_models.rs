@@ -436,27 +436,27 @@ const TABLES: &[Refusal] = &[
     (
         "least_advance_mm = 120.0",
         "least_advance_mm = 0.0",
-        "nao/robot.toml:416:20: least_advance_mm must be positive and finite, not 0",
+        "nao/robot.toml:417:20: least_advance_mm must be positive and finite, not 0",
     ),
     (
         "upper_arm_rad = [-1.75, -0.35]",
         "upper_arm_rad = [-0.35, -1.75]",
-        "nao/robot.toml:417:18: a range needs -2π <= lower < upper <= 2π, not -0.35..-1.75",
+        "nao/robot.toml:418:18: a range needs -2π <= lower < upper <= 2π, not -0.35..-1.75",
     ),
     (
         "upper_arm_rad = [-1.75, -0.35]",
         "upper_arm_rad = [-100.0, -20.0]",
-        "nao/robot.toml:417:18: a range needs -2π <= lower < upper <= 2π, not -100..-20",
+        "nao/robot.toml:418:18: a range needs -2π <= lower < upper <= 2π, not -100..-20",
     ),
     (
         "upper_arm_rad = [-1.75, -0.35]",
         "upper_arm_rad = [-1.75]",
-        "nao/robot.toml:417:17: invalid length 1, expected an array of exactly 2 values",
+        "nao/robot.toml:418:17: invalid length 1, expected an array of exactly 2 values",
     ),
     (
         "lying_length_mm = 600.0",
         "lying_length_mm = 600000.0",
-        "nao/robot.toml:420:19: lying_length_mm must be at most 10000, not 600000",
+        "nao/robot.toml:421:19: lying_length_mm must be at most 10000, not 600000",
     ),
     (
         "[control]\ncommand_step_ms = 10.0\n",
@@ -486,10 +486,10 @@ const TABLES: &[Refusal] = &[
     (
         "yaw_sum = 0.3",
         "yaw_sum = -0.3",
-        "nao/robot.toml:411:11: yaw_sum must be within 0..100, not -0.3",
+        "nao/robot.toml:412:11: yaw_sum must be within 0..100, not -0.3",
     ),
     (
-        "[control.steering]\nyaw = 0.9\nlateral_rad_m = 3.5\nlateral_sum_rad_m = 0.35\nyaw_sum = 0.3                 # of cycles that can be shifted\n",
+        "[control.steering]\nyaw = 0.9\nlateral_rad_m = 3.5\nlateral_sum_rad_m = 0.35\naside_rad_m = 0.7             # these two of cycles that can be shifted\nyaw_sum = 0.3\n",
         "",
         "nao/robot.toml:400:1: missing field `steering`; docs/robot.md describes every section and key",
     ),

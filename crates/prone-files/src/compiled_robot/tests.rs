@@ -76,6 +76,7 @@ fn reference_keys_hold_what_the_sources_say() {
         ("lateral", &control["steering"]["lateral_rad_m"], 3.5),
         ("sum", &control["steering"]["lateral_sum_rad_m"], 0.35),
         ("yaw sum", &control["steering"]["yaw_sum"], 0.3),
+        ("aside", &control["steering"]["aside_rad_m"], 0.7),
         ("uphill", &control["uphill_rad"], 1.5_f64.to_radians()),
         ("head yaw", &head[1][0], -87.49_f64.to_radians()),
         ("head down", &head[1][1], -18.91_f64.to_radians()),
@@ -126,6 +127,7 @@ fn robots() -> impl Strategy<Value = Robot> {
         robot.control.command_step = number();
         robot.control.steering.lateral_sum = number();
         robot.control.steering.yaw_sum = number();
+        robot.control.steering.aside = number();
         if flags[5] {
             robot.coupled_limits.clear();
         }
@@ -359,6 +361,7 @@ fn limit_what_no_robot_has_is_refused_with_place_and_bound() {
 fn limit_what_no_limit_by_another_joint_and_no_gain_is() {
     let refusals = [
         ("/robot/control/steering/yaw_sum", json!(-0.1)),
+        ("/robot/control/steering/aside_rad_m", json!(100.5)),
         ("/robot/coupled_limits/0/joint", json!("Tail")),
         ("/robot/coupled_limits/0/joint", json!("HeadYaw")),
         ("/robot/coupled_limits/0/by", json!("Tail")),
@@ -368,7 +371,7 @@ fn limit_what_no_limit_by_another_joint_and_no_gain_is() {
         ("/robot/coupled_limits/0/table_rad/1/2", json!(700.0)),
     ];
     let refusals = refusals.map(|(pointer, value)| refusal(&changed(pointer, value)));
-    insta::assert_snapshot!(refusals.join("\n"), @"");
+    insta::assert_snapshot!(refusals.join("\n"));
 }
 
 #[test]
