@@ -444,7 +444,7 @@ fn a_search_of_cycles_that_was_sent() {
     for (at, reason) in [
         (vec![178.0, 178.0], "178 mm is there twice"),
         (vec![115.0], "115 mm is too low for NAO H25 V4"),
-        (vec![1.0], "a margin of 1 mm leaves no room"),
+        (vec![1.0], "a ceiling of 1 mm is outside 10 to 10000 mm"),
         (
             vec![f64::NAN],
             "a ceiling of NaN mm is outside 10 to 10000 mm",

@@ -325,7 +325,15 @@ fn completed(robot: &Robot, cycle: &Cycle) -> Result<Cycle, CycleError> {
         let posture = path.at(end);
         let all: BTreeMap<String, f64> = joints
             .iter()
-            .filter_map(|name| Some(((*name).clone(), posture[robot.joint(name)?])))
+            .filter_map(|name| {
+                let id = robot.joint(name)?;
+                // What the cycle asks for: a limit by another joint holds on the way there too, and
+                // stops it elsewhere than at the waypoint.
+                let stop = robot.joints[id.0].range;
+                let asked = waypoint.joints.get(*name);
+                let angle = asked.map(|angle| angle.clamp(stop.lower, stop.upper));
+                Some(((*name).clone(), angle.unwrap_or(posture[id])))
+            })
             .collect();
         waypoint.joints = all;
     }
