@@ -17,11 +17,15 @@ const OTHER_MEANING: [(&str, &str); 1] = [
     ("prone-report/src/report/card_sections.rs", "nominal"),
 ];
 
+/// The name of a cycle that is a word of every other file: whether the cycle is meant cannot be seen.
+const EVERYWHERE: &str = "robot";
+
 #[test]
 fn no_gait_is_named_in_code() {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let names: Vec<&str> = shipped::gait_names()
         .chain(shipped::cycle_names())
+        .filter(|name| *name != EVERYWHERE)
         .collect();
     let mut found = Vec::new();
     for path in sources(&crates) {

@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 
+use prone::gait::CheckedTrajectory;
 use prone::gait::cycle::{CheckedCycle, TimeScale};
 use prone::robot::Robot;
 use prone_files::compiled_robot::{self, CompiledRobot, RobotDocument};

@@ -3,7 +3,7 @@
 //! Every cycle is crawled under a plate of the ceiling's height, from before it until the robot has come
 //! out behind it, first as everything is in the model. Those that get through without touching anything,
 //! and stay below the ceiling by the margin, go, the fastest first, through all of the
-//! [`corners`](super::corners) under the same plate, where they have to get through too; a cycle stops at
+//! [`corners`] under the same plate, where they have to get through too; a cycle stops at
 //! the first in which it does not. The answer is the first one that gets through all of them, and where
 //! none does the fastest that passes as things are in the model, called that.
 //!
