@@ -476,7 +476,7 @@ const TABLES: &[Refusal] = &[
     (
         "by = \"HeadYaw\"",
         "by = \"HeadJaw\"",
-        "nao/robot.toml:164:6: HeadJaw",
+        "nao/robot.toml:164:6: there is no joint \"HeadJaw\" in nao/robot.xml; did you mean \"HeadYaw\"?",
     ),
     (
         "[-87.49, -18.91, 11.46], [-62.45",

@@ -334,7 +334,7 @@ fn completed(robot: &Robot, cycle: &Cycle) -> Result<Cycle, CycleError> {
 
 #[cfg(test)]
 mod tests {
-    use prone::gait::PhaseDurationError;
+    use prone::gait::{Clamp, PhaseDurationError};
     use prone_files::shipped;
     use prone_sim::{LoadedRobot, RobotFiles};
 
@@ -359,11 +359,21 @@ mod tests {
             let (one, other) = (plan(&cycle), plan(&again));
             let path = |checked: &CheckedCycle| checked.recovery_after(checked).unwrap();
             let (back, forth) = (path(&one), path(&other));
-            for k in 0..=20 {
-                let t = f64::from(k) / 20.0;
-                let seconds = t * one.recovery_seconds();
+            // Waypoints that a limit by another joint stops are stopped in the middle, so that the way
+            // to them is another one.
+            let coupled = &robot.coupled_limits;
+            let stopped = |clamp: &Clamp| coupled.iter().any(|it| it.joint == clamp.joint);
+            let times: Vec<f64> = if one.clamps().iter().any(stopped) {
+                one.recovery_ends().into_iter().map(|it| it.1).collect()
+            } else {
+                let seconds = one.recovery_seconds();
+                (0..=20).map(|k| seconds * f64::from(k) / 20.0).collect()
+            };
+            for seconds in times {
+                let t = seconds / one.recovery_seconds();
+                let pulled = t * one.pull_seconds();
                 for (one, other) in [
-                    (one.pull_at(t), other.pull_at(t)),
+                    (one.pull_at(pulled), other.pull_at(pulled)),
                     (back.at(seconds), forth.at(seconds)),
                 ] {
                     let pairs = one.as_slice().iter().zip(other.as_slice());
