@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 
+use prone::gait::CheckedTrajectory;
 use prone::gait::cycle::{CheckedCycle, TimeScale};
 use prone::robot::Robot;
 use prone_files::compiled_robot::{self, CompiledRobot, RobotDocument};
@@ -119,18 +120,21 @@ fn cycles_are_planned_alike_on_the_compiled_nao() {
         if compiled == **loaded.robot() {
             assert_eq!(ours, theirs, "{name}");
         }
-        for k in 0..=40 {
-            let s = f64::from(k) / 40.0;
-            let postures = |it: &CheckedCycle| {
-                let back = it.recovery_after(it).unwrap();
-                [it.pull_at(s), back.at(s * it.recovery_seconds())]
-            };
-            for (ours, theirs) in postures(&ours).iter().zip(&postures(&theirs)) {
-                for (ours, theirs) in ours.pairs(theirs) {
-                    // Angles are made of lengths of a tenth of a metre and more.
-                    let off = (ours - theirs).abs();
-                    assert!(off < 1e2 * TOLERANCE, "{name}: {off} rad");
-                }
+        let postures = |checked: &CheckedCycle| {
+            let path = checked.recovery_after(checked).unwrap();
+            let pulled = checked.pull().map_or(&[][..], CheckedTrajectory::samples);
+            let pulled = pulled.iter().map(|sample| sample.joints.clone());
+            let back = checked.recovery_seconds();
+            let way = (0..=100).map(|k| path.at(back * f64::from(k) / 100.0));
+            pulled.chain(way).collect::<Vec<_>>()
+        };
+        let (ours, theirs) = (postures(&ours), postures(&theirs));
+        assert_eq!(ours.len(), theirs.len(), "{name}");
+        for (ours, theirs) in ours.iter().zip(&theirs) {
+            for (ours, theirs) in ours.pairs(theirs) {
+                // Angles are made of lengths of a tenth of a metre and more.
+                let off = (ours - theirs).abs();
+                assert!(off < 1e2 * TOLERANCE, "{name}: {off} rad");
             }
         }
     }

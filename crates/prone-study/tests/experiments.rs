@@ -441,19 +441,25 @@ fn a_search_of_cycles_that_was_sent() {
         name: Some("a/b".to_owned()),
     });
     assert!(said.contains("a gait's name is made of"), "{said}");
-    for (at, reason) in [
-        (vec![178.0, 178.0], "178 mm is there twice"),
-        (vec![115.0], "115 mm is too low for NAO H25 V4"),
-        (vec![1.0], "a ceiling of 1 mm is outside 10 to 10000 mm"),
+    for (at, margin_mm, reason) in [
+        (vec![178.0, 178.0], 1.0, "178 mm is there twice"),
+        (vec![115.0], 1.0, "115 mm is too low for NAO H25 V4"),
+        (vec![178.0], 178.0, "a margin of 178 mm leaves no room"),
+        (
+            vec![1.0],
+            0.5,
+            "a ceiling of 1 mm is outside 10 to 10000 mm",
+        ),
         (
             vec![f64::NAN],
+            1.0,
             "a ceiling of NaN mm is outside 10 to 10000 mm",
         ),
     ] {
         let said = refused(Under::Across {
             held: Quantity::Ceiling,
             at,
-            margin_mm: 1.0,
+            margin_mm,
         });
         assert!(said.contains(reason), "{said}");
     }
