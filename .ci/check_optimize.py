@@ -13,7 +13,7 @@ FILES = [
     "chains.csv", "confirmation.csv", "figures.json", "figures/confirmation.png",
     "figures/confirmation.svg", "figures/fig-24-search.png", "figures/fig-24-search.svg", "gait.toml",
     "history.csv",
-    "result.json", "run.json", "timing.json",
+    "result.json", "run.json", "search.state.json", "timing.json",
 ]
 
 
