@@ -81,9 +81,7 @@ pub(crate) fn print(passage: &Passage, searched: bool, out: &mut dyn Write) -> s
         (None, _) if passage.impossible => writeln!(out, "{under}: impossible")?,
         (None, _) => writeln!(out, "{under}: none found")?,
     }
-    let named = passage.gait.as_ref();
-    let named = named.and_then(|gait| passage.candidates.iter().find(|it| it.gait == *gait));
-    if let Some(named) = named {
+    if let Some(named) = passage.named() {
         print_named(passage, named, out)?;
     }
     writeln!(out, "  limited by {}", passage.limited_by)?;
@@ -104,7 +102,7 @@ fn print_named(passage: &Passage, named: &Candidate, out: &mut dyn Write) -> std
         named.time_s, named.mm_per_s, named.mm_per_cycle, named.worst_mm_per_cycle, named.margin_mm
     )?;
     let steers = if named.steers {
-        "steered where the ground is uneven"
+        "steered in the corners"
     } else {
         "cannot be steered"
     };

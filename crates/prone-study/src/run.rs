@@ -44,7 +44,7 @@ use crate::search::costed_cycle;
 use crate::search::passage::{self, Offered, Passage, Plates, Under};
 use crate::search::room::NoRoom;
 use crate::search::run::Done;
-use crate::watch::{Progress, Watch};
+use crate::watch::Watch;
 
 pub use error::RunError;
 pub use search::CostOutcome;
@@ -119,7 +119,7 @@ pub struct CrawlOutcome {
 pub struct PassageOutcome {
     /// The answer.
     pub passage: Passage,
-    /// The fastest cycle that fits, where there is one.
+    /// The cycle of the answer, where there is one.
     pub cycle: Option<Cycle>,
 }
 
@@ -294,7 +294,8 @@ impl Session {
         };
         let plates = Plates::new(&robot, under)?;
         let pool = self.pool()?;
-        watch.progress(&Progress::Simulating(cycles.len()));
+        let called = experiment.cycles.iter().map(|it| it.called.clone());
+        let mut called: Vec<String> = called.collect();
         let mut passage = {
             let offered = experiment.cycles.iter().zip(&cycles);
             let offered = offered.map(|(asked, cycle)| Offered {
@@ -318,27 +319,27 @@ impl Session {
                     origin: "searched",
                 };
                 pool.install(|| passage.take(&plates, &[offered], watch));
+                called.push(cycle.name.clone());
                 cycles.push(cycle);
             }
         }
-        let called = experiment.cycles.iter().map(|it| it.called.as_str());
-        let called: Vec<&str> = called.chain(["searched"]).collect();
-        let gait = passage.gait.as_deref();
-        let cycle = gait.and_then(|gait| {
-            let place = called.iter().position(|called| *called == gait);
-            place.and_then(|place| cycles.get(place)).or(cycles.last())
+        let named = passage.named();
+        let cycle = named.and_then(|named| {
+            let mut all = called.iter().zip(&cycles);
+            all.find(|(called, _)| **called == named.gait)
         });
-        let cycle = cycle.cloned();
+        let cycle = cycle.map(|(_, cycle)| cycle.clone());
         uninterrupted(watch, || {
-            let found = self
-                .place
-                .as_ref()
-                .zip(passage.candidates.first())
-                .zip(cycle.as_ref());
-            found.map_or(Ok(()), |((place, best), cycle)| {
+            let found = self.place.as_ref().zip(named).zip(cycle.as_ref());
+            found.map_or(Ok(()), |((place, named), cycle)| {
+                let through = if passage.robust {
+                    format!("in all {} corners", passage.corners)
+                } else {
+                    "as in the model, not in all corners".to_owned()
+                };
                 let header = format!(
-                    "Passes {ceiling_mm} mm with {:.1} mm to spare, {:.1} mm per cycle (prone crawl under).",
-                    best.margin_mm, best.mm_per_cycle
+                    "Passes {ceiling_mm} mm over {} m {through}, with {:.1} mm to spare, {:.1} mm per cycle (prone crawl under).",
+                    passage.length_m, named.margin_mm, named.mm_per_cycle
                 );
                 let text = cycle_file::write(cycle, &header);
                 let written = single_file::write(&place.path, text.as_bytes());

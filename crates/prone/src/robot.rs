@@ -22,7 +22,7 @@ mod tree;
 
 pub use contact_group::ContactGroup;
 pub use control::{Control, SearchSetup, SteeringGains};
-pub use coupled_limit::{CoupledLimit, CoupledLimitError};
+pub use coupled_limit::{BeyondCoupled, CoupledLimit, CoupledLimitError};
 pub use drive::Drive;
 pub use imu::{Imu, SensorNoise};
 pub use joint_angles::JointAngles;

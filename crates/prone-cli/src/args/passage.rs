@@ -111,7 +111,7 @@ pub(crate) struct FrontierArgs {
     /// the lowest [default: those of the robot's [defaults], of the NAO low-175 and low-165]
     #[arg(long, value_name = "GAIT")]
     pub(crate) from: Vec<String>,
-    /// Search cycles that can be steered: at the largest turn command they turn 6° a cycle, and
+    /// Search cycles that can be steered: at the largest turn command they turn 10° a cycle, and
     /// joints that are off by a degree on friction of 0.5 at one side and 0.9 at the other turn them
     /// by half of that at most
     #[arg(long)]

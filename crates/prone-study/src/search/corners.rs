@@ -3,9 +3,9 @@
 //!
 //! [`all`] has them in a fixed order. First come the sixteen of *uneven* ground: friction that differs
 //! from side to side, and joints that are all off by up to 1°; seed by seed, with the slippery side at
-//! the left and then at the right. There the heading is to be held by a cycle that can be steered
-//! ([`Corner::holds_heading`]); how is the business of whoever crawls. Then each of the others comes
-//! alone: friction, masses, stiffness of the servos, backlash, late commands.
+//! the left and then at the right. Then each of the others comes alone: friction, masses, stiffness of
+//! the servos, backlash, late commands. In all of them a cycle that can be steered is to hold its
+//! heading, as it would be crawled; how is the business of whoever crawls.
 //!
 //! Everything else is as in the regime `locomotion`. `prone crawl run` has an option for each of
 //! them, so that any corner can be crawled again by itself.
@@ -184,7 +184,7 @@ impl Corner {
                 friction: SideFriction { left, right },
                 seed,
             } => format!(
-                "Friction is {left} at the left and {right} at the right, each joint is off by up to {OFFSET_DEG}°, drawn by seed {seed}, and the heading is held where the cycle can be steered."
+                "Friction is {left} at the left and {right} at the right, and each joint is off by up to {OFFSET_DEG}°, drawn by seed {seed}."
             ),
             Self::Friction(friction) => format!("Friction is {friction} on both sides."),
             Self::Masses(factor) => {
@@ -199,11 +199,6 @@ impl Corner {
                 LateCommands::SLOW * 1e3
             ),
         }
-    }
-
-    /// Whether a cycle that can be steered is to hold its heading in it.
-    pub const fn holds_heading(self) -> bool {
-        matches!(self, Self::Uneven { .. })
     }
 
     /// Friction by side, in place of the regime's.
@@ -270,7 +265,7 @@ impl Corner {
             late: self.late(),
             cycles: asked.cycles,
             turn: 0.0,
-            held: self.holds_heading(),
+            held: true,
             role: asked.role,
         }
     }

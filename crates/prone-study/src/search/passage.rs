@@ -31,7 +31,7 @@ use super::setting::{HOLDS, Role, Setting};
 use super::settings::{self, SettingError};
 use super::trial::try_out;
 use crate::watch::{Progress, Watch};
-use attempt::{Attempt, Way, attempt};
+use attempt::{Attempt, attempt};
 
 /// An answer.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -128,8 +128,9 @@ impl Plates {
         })
     }
 
-    fn way(&self, advance: f64) -> Way {
-        Way::under(self.ideal.world.robot(), self.under.length, advance)
+    /// Where the last point of the robot has to have passed, m.
+    fn end(&self) -> f64 {
+        Scene::CLEAR_START + self.under.length
     }
 }
 
@@ -170,6 +171,7 @@ impl Passage {
 
     /// Takes more cycles into account.
     pub fn take(&mut self, plates: &Plates, offered: &[Offered<'_>], watch: &dyn Watch) {
+        watch.progress(&Progress::Simulating(offered.len()));
         let ideal: Vec<_> = offered
             .par_iter()
             .map(|it| (it, ideal(plates, it, watch)))
@@ -178,15 +180,14 @@ impl Passage {
         for (offered, tried) in ideal {
             match tried {
                 Ok((candidate, run)) => {
-                    passing.extend(candidate.passes.then_some((offered, run)));
+                    passing.extend(candidate.passes.then_some((offered, run.seconds)));
                     self.candidates.push(candidate);
                 }
                 Err(reason) => self.refused.push((offered.called.to_owned(), reason)),
             }
         }
-        let order = |run: &Attempt| run.seconds;
-        passing.sort_by(|(_, a), (_, b)| order(a).total_cmp(&order(b)));
-        for (offered, run) in passing {
+        passing.sort_by(|(_, a), (_, b)| a.total_cmp(b));
+        for (offered, _) in passing {
             if self.robust || watch.stop() {
                 break;
             }
@@ -194,7 +195,7 @@ impl Passage {
             let Some(candidate) = self.candidates.iter_mut().find(|it| it.gait == name) else {
                 continue;
             };
-            through_corners(plates, offered.cycle, &run, candidate, watch);
+            through_corners(plates, offered.cycle, candidate, watch);
             if candidate.robust == Some(true) {
                 self.robust = true;
             }
@@ -230,6 +231,12 @@ impl Passage {
         self.verdict.clone_from(&named.verdict);
     }
 
+    /// The cycle of the answer, in figures.
+    pub fn named(&self) -> Option<&Candidate> {
+        let gait = self.gait.as_ref()?;
+        self.candidates.iter().find(|it| it.gait == *gait)
+    }
+
     fn nothing_found(&self) -> String {
         let lowest = self.candidates.iter();
         let lowest = lowest.min_by(|a, b| a.open_top_mm.total_cmp(&b.open_top_mm));
@@ -262,7 +269,7 @@ fn ideal(
     let (cycle, under) = (offered.cycle, plates.under);
     let trial = try_out(&plates.open, cycle).map_err(|error| reason(&error))?;
     let stopped = || watch.stop();
-    let run = attempt(&plates.ideal, cycle, plates.way(trial.advance), &stopped);
+    let run = attempt(&plates.ideal, cycle, plates.end(), &stopped);
     let run = run.map_err(|error| reason(&error))?;
     watch.progress(&Progress::Done(1));
     let candidate = Candidate::new(offered, &trial, &run, under);
@@ -270,20 +277,18 @@ fn ideal(
 }
 
 /// Crawls a cycle through the corners, so many at once as there are threads, until it fails in one.
-fn through_corners(
-    plates: &Plates,
-    cycle: &Cycle,
-    ideal: &Attempt,
-    candidate: &mut Candidate,
-    watch: &dyn Watch,
-) {
-    let way = plates.way(ideal.advance);
+fn through_corners(plates: &Plates, cycle: &Cycle, candidate: &mut Candidate, watch: &dyn Watch) {
+    watch.progress(&Progress::Simulating(plates.corners.len()));
     let stopped = || watch.stop();
     let mut got_through = 0;
     for some in plates.corners.chunks(rayon::current_num_threads().max(1)) {
         let runs: Vec<_> = some
             .par_iter()
-            .map(|(_, setting)| attempt(setting, cycle, way, &stopped))
+            .map(|(_, setting)| {
+                let run = attempt(setting, cycle, plates.end(), &stopped);
+                watch.progress(&Progress::Done(1));
+                run
+            })
             .collect();
         // What comes after the first that fails is not looked at, so that the number of threads does
         // not matter.

@@ -21,8 +21,8 @@ const SLOW: f64 = 1.7;
 /// Seeds of calibration errors that show how far a cycle is thrown off without being steered: some
 /// that neither the corners nor any test uses.
 const OFF_SEED: u64 = 101;
-/// Turn a cycle at the largest command, rad: 6°.
-const TURN: f64 = 0.105;
+/// Turn a cycle at the largest command, rad: 10°.
+const TURN: f64 = 0.1745;
 /// Turn a cycle at half the largest command, rad: 2°. What it turns more than that at the largest one
 /// makes the command monotone.
 const HALF_TURN: f64 = 0.035;
@@ -142,7 +142,7 @@ pub fn searched_corners(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingErro
     };
     let mut settings = corners::settings(robot, &Scene::level(), SEARCHED, asked)?;
     for setting in &mut settings {
-        if setting.spec.held {
+        if setting.spec.offsets.is_some() {
             setting.spec.cycles = HELD_CYCLES;
         }
     }
@@ -157,7 +157,7 @@ pub fn for_advance(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
     compiled(robot, [plain(SettingKind::AsItIs, 2, Role::Value)])
 }
 
-/// What a search adds where its cycle has to be steered: it turns by 6° a cycle at the largest
+/// What a search adds where its cycle has to be steered: it turns by 10° a cycle at the largest
 /// command, and by less, but something, at half of it.
 ///
 /// # Errors

@@ -39,7 +39,7 @@ mod error;
 mod plan;
 
 pub use checked::{CheckedCycle, FastestJoint, RecoveryPath};
-pub use error::{BeyondCoupled, CycleError};
+pub use error::CycleError;
 
 use std::collections::BTreeMap;
 

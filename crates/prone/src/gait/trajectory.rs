@@ -3,7 +3,7 @@
 use super::{Gait, LimitsPolicy};
 use crate::chain::{ChainAngles, ChainPosture};
 use crate::mapping::{Mapping, MappingError};
-use crate::robot::{JointAngles, JointId, Range, Robot};
+use crate::robot::{BeyondCoupled, JointAngles, JointId, Range, Robot};
 
 /// How long one closed-chain phase lasts, s.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
@@ -161,6 +161,20 @@ pub enum TrajectoryError {
         /// How far outside, rad.
         excess: f64,
     },
+    /// A joint passes the limit that another joint's angle sets it, and the policy is to refuse.
+    #[error(
+        "gait {gait}: {beyond} at sample {sample} (s = {s:.3}); `limits = \"clamp\"` in the gait file would stop it there"
+    )]
+    Coupled {
+        /// The gait's name.
+        gait: String,
+        /// The sample, from 0.
+        sample: usize,
+        /// Its phase.
+        s: f64,
+        /// What lies beyond, boxed as all other errors are smaller.
+        beyond: Box<BeyondCoupled>,
+    },
 }
 
 impl CheckedTrajectory {
@@ -254,24 +268,19 @@ impl CheckedTrajectory {
                 note(&mut clamps, id, excess, s);
             }
             for limit in &robot.coupled_limits {
-                let (range, angle) = (limit.range(joints[limit.by]), joints[limit.joint]);
-                let excess = range.excess(angle);
+                let excess = limit.excess(&joints);
                 if excess == 0.0 {
                     continue;
                 }
-                if gait.limits == LimitsPolicy::Refuse {
-                    return Err(TrajectoryError::Limit {
+                if gait.limits == LimitsPolicy::Refuse || excess.is_nan() {
+                    return Err(TrajectoryError::Coupled {
                         gait: gait.name.clone(),
-                        joint: robot.joints[limit.joint.0].name.clone(),
-                        angle,
-                        lower: range.lower,
-                        upper: range.upper,
                         sample,
                         s,
-                        excess: excess.abs(),
+                        beyond: Box::new(limit.beyond(robot, &joints)),
                     });
                 }
-                joints[limit.joint] = range.clamp(angle);
+                limit.clamp(&mut joints);
                 note(&mut clamps, limit.joint, excess, s);
             }
             samples.push(Sample {

@@ -4,7 +4,7 @@
 //! a manufacturer gives the range of one joint as a table over another. Between two lines of the
 //! table the range is linear; beyond its ends it is that of the end.
 
-use super::{JointId, Range};
+use super::{JointAngles, JointId, Range, Robot};
 
 /// Range of a joint over the angle of another.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,6 +38,26 @@ pub enum CoupledLimitError {
     /// A joint cannot limit itself.
     #[error("a joint cannot limit itself")]
     ByItself,
+}
+
+/// A joint that is beyond the limits which another joint's angle sets it.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error(
+    "{joint} {angle:.4} rad is outside {lower:.4}..{upper:.4}, its limits while {by} is at {at:.4} rad"
+)]
+pub struct BeyondCoupled {
+    /// The joint's name.
+    pub joint: String,
+    /// The joint that sets the limits.
+    pub by: String,
+    /// Where that one is, rad.
+    pub at: f64,
+    /// What is asked for, rad.
+    pub angle: f64,
+    /// The lower limit, rad.
+    pub lower: f64,
+    /// The upper limit, rad.
+    pub upper: f64,
 }
 
 impl CoupledLimit {
@@ -88,6 +108,30 @@ impl CoupledLimit {
         Range {
             lower: between(below.lower, above.lower),
             upper: between(below.upper, above.upper),
+        }
+    }
+
+    /// How far its joint is outside in a posture, rad, negative below; NaN where it is no number.
+    pub fn excess(&self, posture: &JointAngles) -> f64 {
+        self.range(posture[self.by]).excess(posture[self.joint])
+    }
+
+    /// Brings its joint within.
+    pub fn clamp(&self, posture: &mut JointAngles) {
+        posture[self.joint] = self.range(posture[self.by]).clamp(posture[self.joint]);
+    }
+
+    /// What is beyond in a posture of a robot, in words.
+    pub fn beyond(&self, robot: &Robot, posture: &JointAngles) -> BeyondCoupled {
+        let name = |joint: JointId| robot.joints[joint.0].name.clone();
+        let Range { lower, upper } = self.range(posture[self.by]);
+        BeyondCoupled {
+            joint: name(self.joint),
+            by: name(self.by),
+            at: posture[self.by],
+            angle: posture[self.joint],
+            lower,
+            upper,
         }
     }
 }

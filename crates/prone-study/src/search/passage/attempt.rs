@@ -3,18 +3,12 @@
 use prone::crawl::{Pilot, Straight};
 use prone::gait::cycle::{Cycle, TimeScale};
 use prone::motor::{Load, Verdict};
-use prone::robot::{BodyPart, Robot};
-use prone::scene::{Scene, obstacle_name};
+use prone::robot::BodyPart;
+use prone::scene::obstacle_name;
 use prone::steering::HeadingHold;
 use prone_sim::crawl::{self, Bound, Crawl, CrawlError, CrawlPlan, Detail, End, OnTouch};
 
 use super::super::setting::Setting;
-
-/// How many times as many cycles as the way would take at its first advance a cycle may take.
-const PATIENCE: f64 = 3.0;
-
-/// Fewest cycles before a crawl that does not arrive is given up.
-const FEWEST_CYCLES: usize = 6;
 
 /// What became of a cycle under a plate.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,46 +39,20 @@ pub(super) struct Attempt {
     pub(super) heat_per_metre: Option<f64>,
 }
 
-/// How far a plate is crossed, and in how many cycles at most.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Way {
-    /// Where the last point of the robot has to have passed, m.
-    pub(super) x: f64,
-    /// Cycles at most.
-    pub(super) at_most: usize,
-}
-
-impl Way {
-    /// Under a plate of a length, m, at an advance per cycle, m.
-    pub(super) fn under(robot: &Robot, length: f64, advance: f64) -> Self {
-        let x = Scene::CLEAR_START + length;
-        let cycles = PATIENCE * (x + robot.lying_length) / advance.max(1e-3);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "at most some thousands, and positive"
-        )]
-        let at_most = cycles.ceil().min(2000.0) as usize;
-        Self {
-            x,
-            at_most: at_most.max(FEWEST_CYCLES),
-        }
-    }
-}
-
-/// Crawls a cycle under the plate of a setting's scene; it is given up when it touches anything.
+/// Crawls a cycle under the plate of a setting's scene until its last point is past x, m. It is given up when
+/// it touches anything, and, as any crawl, when its pace does not lead past.
 pub(super) fn attempt(
     setting: &Setting,
     cycle: &Cycle,
-    way: Way,
+    x: f64,
     stopped: &dyn Fn() -> bool,
 ) -> Result<Attempt, CrawlError> {
     let plan = CrawlPlan {
         cycles: vec![cycle.clone()],
         scale: TimeScale::ONE,
         end: End::Past {
-            x: way.x,
-            bound: Bound::Cycles(way.at_most),
+            x,
+            bound: Bound::Pace,
         },
         on_touch: OnTouch::End,
         offsets: setting.spec.offsets.clone(),

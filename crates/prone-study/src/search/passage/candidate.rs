@@ -34,7 +34,7 @@ pub struct Candidate {
     pub open_top_mm: f64,
     /// Part of the body that reaches it.
     pub open_top_part: String,
-    /// Highest point of all its runs under the plate, mm.
+    /// Highest point of all its runs, mm.
     pub top_mm: f64,
     /// Part of the body that reaches it.
     pub top_part: String,
@@ -74,15 +74,20 @@ pub struct FailedCorner {
 impl Candidate {
     /// A cycle by its crawl on open ground and under the plate, as everything is in the model.
     pub(super) fn new(offered: &Offered<'_>, open: &Trial, run: &Attempt, under: Under) -> Self {
-        let top = run.top.0.max(open.top.0);
-        let fits = under.height - top >= under.margin;
+        let (top, part) = if run.top.0 < open.top.0 {
+            open.top
+        } else {
+            run.top
+        };
+        let spare = under.height - top;
         let obstructed = reason(run).or_else(|| {
-            (!fits).then(|| {
-                format!(
-                    "its {} comes within {:.1} mm of the ceiling",
-                    run.top.1.name(),
-                    (under.height - top) * 1e3
-                )
+            (spare < under.margin).then(|| {
+                let (part, spare) = (part.name(), spare * 1e3);
+                if spare < 0.0 {
+                    format!("its {part} comes {:.1} mm above the ceiling", -spare)
+                } else {
+                    format!("its {part} comes within {spare:.1} mm of the ceiling")
+                }
             })
         });
         let verdict = run.verdict.as_ref().map(|it| it.duty.name().to_owned());
@@ -97,9 +102,9 @@ impl Candidate {
             obstructed,
             open_top_mm: millimetres(open.top.0),
             open_top_part: open.top.1.name().to_owned(),
-            top_mm: millimetres(run.top.0),
-            top_part: run.top.1.name().to_owned(),
-            margin_mm: millimetres(under.height - run.top.0),
+            top_mm: millimetres(top),
+            top_part: part.name().to_owned(),
+            margin_mm: millimetres(spare),
             width_mm: millimetres(run.width),
             mm_per_cycle: run.advance * 1e3,
             worst_mm_per_cycle: run.advance * 1e3,
@@ -112,7 +117,7 @@ impl Candidate {
         }
     }
 
-    /// Adds a run in a corner; an error where it does not get through there.
+    /// Adds a run in a corner, whatever came of it; an error where it does not get through there.
     pub(super) fn add(
         &mut self,
         corner: Corner,
@@ -125,9 +130,6 @@ impl Candidate {
             reason,
         };
         let run = run.map_err(|error| failed(error.to_string()))?;
-        if let Some(reason) = reason(&run) {
-            return Err(failed(reason));
-        }
         if run.top.0 * 1e3 > self.top_mm {
             self.top_mm = millimetres(run.top.0);
             run.top.1.name().clone_into(&mut self.top_part);
@@ -135,7 +137,7 @@ impl Candidate {
         }
         self.worst_mm_per_cycle = self.worst_mm_per_cycle.min(run.advance * 1e3);
         self.drift_mm = self.drift_mm.max(run.drift * 1e3);
-        Ok(())
+        reason(&run).map_or(Ok(()), |reason| Err(failed(reason)))
     }
 
     /// Why it is no robust answer, in words.

@@ -170,7 +170,8 @@ impl CheckedCycle {
         }
     }
 
-    /// What was clamped, by joint; a waypoint counts as a sample at phase 1.
+    /// What was clamped, by joint. A waypoint that is beyond a stop counts as a sample at phase 1; what is
+    /// beyond a limit by another joint has the share of the recovery at which it is so.
     pub fn clamps(&self) -> &[Clamp] {
         &self.clamps
     }
@@ -258,7 +259,7 @@ impl RecoveryPath {
     pub fn at(&self, seconds: f64) -> JointAngles {
         let mut posture = self.straight(seconds);
         for limit in self.coupled.iter() {
-            posture[limit.joint] = limit.range(posture[limit.by]).clamp(posture[limit.joint]);
+            limit.clamp(&mut posture);
         }
         posture
     }

@@ -2,6 +2,7 @@
 
 use super::super::{PhaseDurationError, TrajectoryError};
 use super::Cycle;
+use crate::robot::BeyondCoupled;
 
 /// Why a cycle cannot be crawled.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -118,8 +119,10 @@ pub enum CycleError {
         /// How many it has.
         waypoints: usize,
     },
-    /// A turn adds to an angle that a waypoint does not give.
-    #[error("cycle {cycle}, {place}: a turn moves {joint}, to which the waypoint gives no angle")]
+    /// A turn or a shift adds to an angle that a waypoint does not give.
+    #[error(
+        "cycle {cycle}, {place}: a turn or a shift moves {joint}, to which the waypoint gives no angle"
+    )]
     NothingToTurn {
         /// The cycle's name.
         cycle: String,
@@ -158,26 +161,6 @@ pub enum CycleError {
         /// How many joints that one's robot has.
         others: usize,
     },
-}
-
-/// A joint that is beyond the limits which another joint's angle sets it.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error(
-    "{joint} {angle:.4} rad is outside {lower:.4}..{upper:.4}, its limits while {by} is at {at:.4} rad"
-)]
-pub struct BeyondCoupled {
-    /// The joint's name.
-    pub joint: String,
-    /// The joint that sets the limits.
-    pub by: String,
-    /// Where that one is, rad.
-    pub at: f64,
-    /// What is asked for, rad.
-    pub angle: f64,
-    /// The lower limit, rad.
-    pub lower: f64,
-    /// The upper limit, rad.
-    pub upper: f64,
 }
 
 impl CycleError {

@@ -237,8 +237,7 @@ impl Planner<'_> {
             posture = posture.map(|joint, now| stretch.targets[joint.0].unwrap_or(now));
         }
         for limit in &self.robot.coupled_limits {
-            let range = limit.range(posture[limit.by]);
-            posture[limit.joint] = range.clamp(posture[limit.joint]);
+            limit.clamp(&mut posture);
         }
         posture
     }

@@ -2,7 +2,7 @@
 
 use super::super::super::trajectory::note;
 use super::super::super::{Clamp, LimitsPolicy};
-use super::super::{BeyondCoupled, CheckedCycle, CycleError, RecoveryPath};
+use super::super::{CheckedCycle, CycleError, RecoveryPath};
 use super::Planner;
 use crate::robot::JointAngles;
 
@@ -11,7 +11,7 @@ const COUPLED_STEP: f64 = 0.01;
 
 impl Planner<'_> {
     /// Holds a planned cycle against limits that depend on another joint: what lies beyond is an
-    /// error or noted, by the cycle's policy. Postures of the way are kept within as they are made
+    /// error or noted, by the cycle's policy, and no joint follows its limit too fast. Postures of the way are kept within as they are made
     /// ([`RecoveryPath::at`]).
     pub(super) fn check_coupled(
         &self,
@@ -24,17 +24,47 @@ impl Planner<'_> {
         }
         let seconds = checked.recovery_seconds();
         let mut begin = 0.0;
+        let mut before = path.at(begin);
         for (name, end) in checked.recovery_ends() {
             let place = format!("waypoint {name}");
             let mut time: f64 = begin;
             while time < end {
                 let posture = path.straight(time);
                 self.within_coupled(&place, &posture, time / seconds, clamps)?;
+                let next = (time + COUPLED_STEP).min(end);
+                let after = path.at(next);
+                self.slow_enough(&place, [&before, &after], next - time)?;
+                before = after;
                 time += COUPLED_STEP;
             }
             // Each waypoint is looked at, wherever the steps fall.
             self.within_coupled(&place, &path.straight(end), end / seconds, clamps)?;
-            begin = time;
+            begin = end;
+        }
+        Ok(())
+    }
+
+    /// A limit that moves with another joint carries what it holds back along: no faster than any joint may
+    /// move.
+    fn slow_enough(
+        &self,
+        place: &str,
+        [from, to]: [&JointAngles; 2],
+        seconds: f64,
+    ) -> Result<(), CycleError> {
+        for limit in &self.robot.coupled_limits {
+            let joint = &self.robot.joints[limit.joint.0];
+            let speed = (to[limit.joint] - from[limit.joint]).abs() / seconds;
+            // Rounding apart, as the joint may move at its limit by itself.
+            if speed > joint.speed_limit * (1.0 + 1e-6) {
+                return Err(CycleError::Speed {
+                    cycle: self.cycle.name.clone(),
+                    place: place.to_owned(),
+                    joint: joint.name.clone(),
+                    speed,
+                    limit: joint.speed_limit,
+                });
+            }
         }
         Ok(())
     }
@@ -47,8 +77,7 @@ impl Planner<'_> {
         clamps: &mut Vec<Clamp>,
     ) -> Result<(), CycleError> {
         for limit in &self.robot.coupled_limits {
-            let (range, angle) = (limit.range(posture[limit.by]), posture[limit.joint]);
-            let excess = range.excess(angle);
+            let excess = limit.excess(posture);
             if excess == 0.0 {
                 continue;
             }
@@ -56,14 +85,7 @@ impl Planner<'_> {
                 return Err(CycleError::Coupled {
                     cycle: self.cycle.name.clone(),
                     place: place.to_owned(),
-                    beyond: Box::new(BeyondCoupled {
-                        joint: self.robot.joints[limit.joint.0].name.clone(),
-                        by: self.robot.joints[limit.by.0].name.clone(),
-                        at: posture[limit.by],
-                        angle,
-                        lower: range.lower,
-                        upper: range.upper,
-                    }),
+                    beyond: Box::new(limit.beyond(self.robot, posture)),
                 });
             }
             note(clamps, limit.joint, excess, share);

@@ -475,6 +475,36 @@ fn limits_by_another_joint_clamp_what_is_commanded_and_say_so() {
     assert!((path.at(late)[joint("Rroll")] + 0.95).abs() < 1e-12);
 }
 
+/// A joint that rests at 0.9 rad is pushed back by its limit as the knee is folded, faster than it may move.
+#[test]
+fn a_joint_follows_its_limit_no_faster_than_it_may_move() {
+    let mut robot = coupled();
+    let roll = joint("Lroll");
+    robot.joints[roll.0].speed_limit = 1.0;
+    let folding = |seconds: f64| {
+        let mut cycle = across(LimitsPolicy::Clamp);
+        cycle.waypoints = vec![
+            waypoint("rolled", 5.0, &[("Lknee", 0.0), ("Lroll", 0.9)]),
+            waypoint("late", seconds, &[("Lknee", 0.9)]),
+            waypoint("down", 5.0, &[("Lroll", 0.05)]),
+        ];
+        plan_of(&robot, &cycle, Steer::STRAIGHT)
+    };
+    let error = folding(0.5).unwrap_err();
+    let CycleError::Speed {
+        place,
+        joint,
+        speed,
+        ..
+    } = &error
+    else {
+        panic!("{error}");
+    };
+    assert_eq!((place.as_str(), joint.as_str()), ("waypoint late", "Lroll"));
+    assert!(*speed > 1.0, "{error}");
+    assert!(folding(2.0).is_ok());
+}
+
 /// What a waypoint itself asks for is looked at, wherever the steps between fall, and the posture that
 /// a cycle begins in keeps the limit.
 #[test]
