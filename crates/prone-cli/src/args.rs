@@ -223,6 +223,16 @@ fn phase_duration(text: &str) -> Result<PhaseDuration, String> {
     })
 }
 
+/// A number as typed, within bounds; `unit` follows it in messages, as " mm".
+fn within(text: &str, unit: &str, (least, most): (f64, f64)) -> Result<f64, String> {
+    let number: f64 = text.trim().parse().map_err(|_| "not a number".to_owned())?;
+    if (least..=most).contains(&number) {
+        Ok(number)
+    } else {
+        Err(format!("{number}{unit} is outside {least}..{most}{unit}"))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use clap::CommandFactory;

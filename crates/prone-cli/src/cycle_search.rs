@@ -110,7 +110,7 @@ pub(crate) fn experiment(args: &OptimizeArgs) -> Result<CycleSearchExperiment, F
         objective: objective(&args.terms)?,
         steerable: args.cycle.steerable,
         ideal: args.cycle.ideal,
-        reach: args.cycle.reach.unwrap_or(1.0),
+        reach: args.reach.unwrap_or(1.0),
         under: Under::One {
             rules: Box::new(rules(&args.cycle)),
             worst_over: worst_over(&args.cycle, &files)?,
@@ -137,7 +137,8 @@ pub(crate) fn objective(terms: &PullTermsArgs) -> Result<CycleObjective, Failure
         ObjectiveName::Duty => Ok(CycleObjective::Duty),
         ObjectiveName::Height => Ok(CycleObjective::Height),
         ObjectiveName::Published | ObjectiveName::Torque => Err(Failure::Input(anyhow!(
-            "a cycle has --objective heat, peak, advance, speed, duty or height"
+            "a cycle has --objective {}",
+            CycleObjective::ALL.map(CycleObjective::name).join(", ")
         ))),
     }
 }

@@ -72,7 +72,9 @@ fn experiment(args: &OptimizeArgs) -> Result<PullSearchExperiment, Failure> {
 
 /// What belongs to whole cycles is refused, not ignored.
 fn refuse_cycle_options(args: &OptimizeArgs) -> Result<(), Failure> {
-    Failure::if_given(&args.cycle.given(), "goes with --source cycle only")
+    let why = "goes with --source cycle only";
+    Failure::if_given(&args.cycle.given(), why)?;
+    Failure::if_given(&[("--reach", args.reach.is_some())], why)
 }
 
 fn gait_name(args: &OptimizeArgs) -> String {

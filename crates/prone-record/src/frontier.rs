@@ -114,7 +114,7 @@ pub struct Found {
     pub evaluations: u64,
     /// Name of the cycle.
     pub gait: String,
-    /// The objective, as searched: minus metres per cycle, or s/m.
+    /// The objective, as searched: what is minimised.
     pub value: Option<f64>,
     /// The same as it is read, in the unit of the frontier.
     #[serde(default)]

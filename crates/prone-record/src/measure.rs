@@ -31,6 +31,17 @@ pub enum CycleObjective {
 }
 
 impl CycleObjective {
+    /// All of them.
+    pub const ALL: [Self; 7] = [
+        Self::Heat,
+        Self::HeatRate,
+        Self::Advance,
+        Self::Speed,
+        Self::Peak,
+        Self::Duty,
+        Self::Height,
+    ];
+
     /// Name in files and records.
     pub const fn name(self) -> &'static str {
         match self {

@@ -12,7 +12,8 @@
 //!
 //! A cycle is a sequence of phases ([`PhaseKind`]), of which the pull by the closed chain is one
 //! kind. Once in a cycle a [`Pilot`] says which cycle comes next and how it turns: at the end of the
-//! pull, so that the way back leads to the next one's first posture.
+//! pull, so that the way back leads to the next one's first posture, or, without a pull, when the cycle
+//! begins.
 
 mod course;
 mod crawler;

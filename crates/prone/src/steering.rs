@@ -1,4 +1,4 @@
-//! Keeping a crawl on its line: one turn command a cycle.
+//! Keeping a crawl on its line: a command to turn, and one to move aside, once a cycle.
 //!
 //! With yaw ψ (rad, positive to the left), lateral offset y (m, positive to the left) and the sum
 //! of y over the cycles so far, the command is
@@ -54,10 +54,10 @@ impl Bearing {
     }
 }
 
-/// The command of equation (1), cycle after cycle.
+/// The commands of equation (1), or (2) and (3), cycle after cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HeadingHold {
-    /// k, a and b.
+    /// k, a, b, c and e.
     pub gains: SteeringGains,
     /// The largest |u|, rad.
     pub limit: f64,

@@ -9,6 +9,7 @@ use prone_record::experiment::CrawlExperiment;
 
 use super::named::{GaitArg, RobotArg};
 use super::passage::{FrontierArgs, UnderArgs};
+use super::within;
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum CrawlCommand {
@@ -202,50 +203,35 @@ impl TimeStepName {
 }
 
 fn rest(text: &str) -> Result<f64, String> {
-    within(text, CrawlExperiment::REST_BOUNDS_S)
+    within(text, " s", CrawlExperiment::REST_BOUNDS_S)
 }
 
 fn gear_efficiency(text: &str) -> Result<f64, String> {
-    within(text, CrawlExperiment::GEAR_EFFICIENCY_BOUNDS)
+    within(text, "", CrawlExperiment::GEAR_EFFICIENCY_BOUNDS)
 }
 
 fn stiffness_factor(text: &str) -> Result<f64, String> {
-    within(text, CrawlExperiment::STIFFNESS_BOUNDS)
+    within(text, "", CrawlExperiment::STIFFNESS_BOUNDS)
 }
 
 fn mass_factor(text: &str) -> Result<f64, String> {
-    within(text, CrawlExperiment::MASS_BOUNDS)
+    within(text, "", CrawlExperiment::MASS_BOUNDS)
 }
 
 fn backlash(text: &str) -> Result<f64, String> {
-    within(text, CrawlExperiment::BACKLASH_BOUNDS_DEG)
+    within(text, "°", CrawlExperiment::BACKLASH_BOUNDS_DEG)
 }
 
 fn late_commands(text: &str) -> Result<f64, String> {
-    within(text, CrawlExperiment::LATE_BOUNDS_MS)
-}
-
-fn within(text: &str, (lowest, highest): (f64, f64)) -> Result<f64, String> {
-    let value: f64 = text.trim().parse().map_err(|_| "not a number".to_owned())?;
-    if (lowest..=highest).contains(&value) {
-        Ok(value)
-    } else {
-        Err(format!("outside {lowest} to {highest}"))
-    }
+    within(text, " ms", CrawlExperiment::LATE_BOUNDS_MS)
 }
 
 fn heading(text: &str) -> Result<f64, String> {
-    let degrees: f64 = text.trim().parse().map_err(|_| "not a number".to_owned())?;
-    let (lowest, highest) = CrawlExperiment::HEADING_BOUNDS_DEG;
-    if (lowest..=highest).contains(&degrees) {
-        Ok(degrees)
-    } else {
-        Err(format!("{degrees} degrees is outside {lowest}..{highest}"))
-    }
+    within(text, "°", CrawlExperiment::HEADING_BOUNDS_DEG)
 }
 
 fn offset(text: &str) -> Result<f64, String> {
-    within(text, CrawlExperiment::OFFSET_BOUNDS_DEG)
+    within(text, "°", CrawlExperiment::OFFSET_BOUNDS_DEG)
 }
 
 fn time_scale(text: &str) -> Result<TimeScale, String> {

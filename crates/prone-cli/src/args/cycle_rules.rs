@@ -5,6 +5,8 @@ use clap::ValueEnum;
 use prone_record::experiment::CycleSearchExperiment;
 use prone_record::frontier::Quantity;
 
+use super::within;
+
 /// The rules that cycles are held against.
 #[derive(Debug, Default, clap::Args)]
 pub(crate) struct CycleRulesArgs {
@@ -17,12 +19,8 @@ pub(crate) struct CycleRulesArgs {
     /// cycle: leave out the corners, so that what is found is for good ground only
     #[arg(long)]
     pub(crate) ideal: bool,
-    /// cycle: size of the box about the cycle of --from, as a share of the largest: about a good cycle
-    /// a small one finds more [default: 1]
-    #[arg(long, value_name = "SHARE", value_parser = reach, allow_negative_numbers = true)]
-    pub(crate) reach: Option<f64>,
-    /// cycle: farthest from the line within 6 cycles on uneven ground with joints that are off, where
-    /// the heading is held, mm [default: any]
+    /// cycle: farthest from the line in the corners, in 6 cycles on uneven ground, with the heading held, mm
+    /// [default: any]
     #[arg(long, value_name = "MM", value_parser = super::heights::height, allow_negative_numbers = true)]
     pub(crate) most_drift_mm: Option<f64>,
     /// cycle: what the motors of a robot have to be able to do [default: anything]
@@ -58,10 +56,9 @@ pub(crate) struct CycleRulesArgs {
 
 impl CycleRulesArgs {
     /// Each option, and whether it was given.
-    pub(crate) fn given(&self) -> [(&'static str, bool); 14] {
+    pub(crate) fn given(&self) -> [(&'static str, bool); 13] {
         [
             ("--ideal", self.ideal),
-            ("--reach", self.reach.is_some()),
             ("--most-drift-mm", self.most_drift_mm.is_some()),
             ("--verdict", self.verdict.is_some()),
             ("--ceiling-mm", self.ceiling_mm.is_some()),
@@ -91,30 +88,21 @@ pub(crate) enum VerdictName {
 }
 
 pub(super) fn reach(text: &str) -> Result<f64, String> {
-    between(text, CycleSearchExperiment::REACH)
+    within(text, "", CycleSearchExperiment::REACH)
 }
 
 fn positive(text: &str) -> Result<f64, String> {
-    between(text, (0.01, 1000.0))
+    within(text, "", (0.01, 1000.0))
 }
 
 fn percent(text: &str) -> Result<f64, String> {
-    between(text, (0.0, 100.0))
+    within(text, " %", (0.0, 100.0))
 }
 
 fn speed(text: &str) -> Result<f64, String> {
-    between(text, Quantity::Speed.bounds())
+    within(text, " mm/s", Quantity::Speed.bounds())
 }
 
 fn duty(text: &str) -> Result<f64, String> {
-    between(text, Quantity::Duty.bounds())
-}
-
-fn between(text: &str, (least, most): (f64, f64)) -> Result<f64, String> {
-    let number: f64 = text.trim().parse().map_err(|_| "not a number".to_owned())?;
-    if (least..=most).contains(&number) {
-        Ok(number)
-    } else {
-        Err(format!("{number} is outside {least}..{most}"))
-    }
+    within(text, "", Quantity::Duty.bounds())
 }

@@ -2,6 +2,8 @@
 
 use prone::scene::{LOWEST_CEILING, taken_for_metres};
 
+use super::within;
+
 /// A ceiling as typed, mm; one that is lower than any robot was typed in metres.
 pub(crate) fn ceiling(text: &str) -> Result<f64, String> {
     let typed: Option<f64> = text.trim().parse().ok();
@@ -11,19 +13,10 @@ pub(crate) fn ceiling(text: &str) -> Result<f64, String> {
         let meant = (meant * 1e9).round() / 1e9;
         return Err(format!("{mm} mm: did you mean {meant}?"));
     }
-    within(text, LOWEST_CEILING * 1e3, 10_000.0)
+    within(text, " mm", (LOWEST_CEILING * 1e3, 10_000.0))
 }
 
 /// A height as typed, mm: above nothing, below any room.
 pub(crate) fn height(text: &str) -> Result<f64, String> {
-    within(text, 1.0, 10_000.0)
-}
-
-pub(super) fn within(text: &str, least: f64, most: f64) -> Result<f64, String> {
-    let number: f64 = text.trim().parse().map_err(|_| "not a number".to_owned())?;
-    if (least..=most).contains(&number) {
-        Ok(number)
-    } else {
-        Err(format!("{number} mm is outside {least}..{most} mm"))
-    }
+    within(text, " mm", (1.0, 10_000.0))
 }

@@ -93,6 +93,10 @@ pub(crate) struct OptimizeArgs {
     pub(crate) confirm_durations: Option<Vec<prone::gait::PhaseDuration>>,
     #[command(flatten)]
     pub(crate) cycle: CycleRulesArgs,
+    /// cycle: size of the box about the cycle of --from, as a share of the largest: about a good cycle
+    /// a small one finds more [default: 1]
+    #[arg(long, value_name = "SHARE", value_parser = super::cycle_rules::reach, allow_negative_numbers = true)]
+    pub(crate) reach: Option<f64>,
     /// Name of the found gait [default: best-OBJECTIVE]
     #[arg(long, value_name = "NAME", value_parser = name)]
     pub(crate) name: Option<String>,

@@ -7,8 +7,9 @@ use clap::ValueEnum;
 use prone_record::experiment::{CycleSearchExperiment, PassageExperiment};
 use prone_record::frontier::Quantity;
 
-use super::heights::{ceiling, within};
+use super::heights::ceiling;
 use super::named::{GaitArgs, RobotArg};
+use super::within;
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
@@ -20,9 +21,9 @@ Examples:
 
 Each GAIT is crawled under a plate of that height and length. Those that get through untouched and
 keep the margin go, the fastest first, through 24 corners under the same plate: joints off by up to
-1° on ground that is more slippery at one side (with the heading held where the cycle can be steered),
-friction 0.4 and 1, masses 10 % off, servos half and twice as stiff, 1° of play in every gear, late
-commands. The answer is the first that gets through all of them; where none does, the fastest that
+1° on ground that is more slippery at one side, friction 0.4 and 1, masses 10 % off, servos half and
+twice as stiff, 1° of play in every gear, late commands. There the heading is held where the cycle can
+be steered. The answer is the first that gets through all of them; where none does, the fastest that
 passes as everything is in the model, which is said. Where none passes and a seed is given, one is
 searched. The exit code is 0 for every answer.")]
 pub(crate) struct UnderArgs {
@@ -66,9 +67,10 @@ Examples:
   prone crawl frontier --of speed,heat --at 30,40,50 --time-budget 600 --seed 1 --out out/speed-heat
 
 Each value is searched with each seed about one of the cycles of --from. What is found is crawled
-in other settings too: friction 0.4 and 1, time scales 0.8 and 1.7, steps of 1 ms, and with stiff
-servos, for information. A point is robust where it keeps 80 % of its advance in them, below the
-ceiling; it is ideal where it keeps the rules in the settings of its search alone. The folder appears when all is done; until then the searches are kept in OUT.checkpoint.json beside it,
+in other settings too: the 24 corners, time scales 0.8 and 1.7, steps of 1 ms, and, for information,
+with stiff and with soft servos. A point is robust where it keeps three quarters of its advance in
+them, below the ceiling; it is ideal where it keeps the rules in the settings of its search alone.
+The folder appears when all is done; until then the searches are kept in OUT.checkpoint.json beside it,
 and --resume goes on from there to the same bytes.")]
 #[expect(
     clippy::struct_excessive_bools,
@@ -111,9 +113,8 @@ pub(crate) struct FrontierArgs {
     /// the lowest [default: those of the robot's [defaults], of the NAO low-175 and low-165]
     #[arg(long, value_name = "GAIT")]
     pub(crate) from: Vec<String>,
-    /// Search cycles that can be steered: at the largest turn command they turn 10° a cycle, and
-    /// joints that are off by a degree on friction of 0.5 at one side and 0.9 at the other turn them
-    /// by half of that at most
+    /// Search cycles that can be steered: at the largest turn command they turn 10° a cycle, and more
+    /// than uneven ground and joints that are off throw them off
     #[arg(long)]
     pub(crate) steerable: bool,
     /// Leave out the corners, so that what is found is for good ground only
@@ -149,13 +150,7 @@ pub(crate) enum AgainstName {
 }
 
 fn length(text: &str) -> Result<f64, String> {
-    let (least, most) = PassageExperiment::LENGTHS_M;
-    let number: f64 = text.trim().parse().map_err(|_| "not a number".to_owned())?;
-    if (least..=most).contains(&number) {
-        Ok(number)
-    } else {
-        Err(format!("{number} m is outside {least}..{most} m"))
-    }
+    within(text, " m", PassageExperiment::LENGTHS_M)
 }
 
 /// Two different quantities.
@@ -182,5 +177,5 @@ fn value(text: &str) -> Result<f64, String> {
 }
 
 fn margin(text: &str) -> Result<f64, String> {
-    within(text, 0.0, 1000.0)
+    within(text, " mm", (0.0, 1000.0))
 }

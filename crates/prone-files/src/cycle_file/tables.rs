@@ -17,9 +17,6 @@ use crate::gait_file::{ArmName, LimitsName, MappingName};
 const LARGEST_DEG: f64 = 360.0;
 /// Largest turn command, degrees: beyond it the sines of the steering's geometry are not small.
 const LARGEST_TURN_DEG: f64 = 30.0;
-/// Largest factor of a turn command.
-const LARGEST_FACTOR: f64 = 10.0;
-
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CycleFile {
@@ -173,7 +170,7 @@ impl Source<'_> {
         table: BTreeMap<String, Spanned<f64>>,
     ) -> Result<BTreeMap<String, f64>, FileError> {
         let factors = table.into_iter().map(|(joint, factor)| {
-            let value = self.within(&factor, &joint, LARGEST_FACTOR)?;
+            let value = self.within(&factor, &joint, Steering::LARGEST_FACTOR)?;
             Ok((joint, value))
         });
         factors.collect()
@@ -231,7 +228,7 @@ impl Source<'_> {
             "shift_limit",
         )?;
         let spread = table.spread.as_ref();
-        let spread = spread.map(|it| self.within(it, "spread", LARGEST_FACTOR));
+        let spread = spread.map(|it| self.within(it, "spread", Steering::LARGEST_FACTOR));
         Ok(Steering {
             limit,
             dead_band,

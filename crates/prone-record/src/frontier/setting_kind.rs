@@ -11,9 +11,9 @@ pub enum SettingKind {
     /// Nothing.
     #[default]
     AsItIs,
-    /// Slow, on slippery ground: the first of the corners of a search.
+    /// Slow, on slippery ground: a corner of earlier searches, whose records are read.
     SlowSlippery,
-    /// Fast, on sticky ground: the other corner.
+    /// Fast, on sticky ground: the other one.
     FastSticky,
     /// Half the largest turn command.
     HalfTurning,

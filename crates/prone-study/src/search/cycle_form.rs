@@ -6,8 +6,9 @@
 //! middle's waypoint does not name is free there too, about where it stays.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
-use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, Pull, TimeScale};
+use prone::gait::cycle::{CheckedCycle, Cycle, CycleError, Pull, Steering, TimeScale};
 use prone::gait::{Curve, CurveError, PhaseDuration};
 use prone::robot::{Mirror, Range, Robot};
 use prone_optim::{Interval, IntervalError};
@@ -74,6 +75,27 @@ enum PullCurve {
     Company(String),
 }
 
+impl fmt::Display for Variable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Curve(curve, control) => {
+                let name = match curve {
+                    PullCurve::Knee => "knee",
+                    PullCurve::Hip => "hip",
+                    PullCurve::UpperArm => "upper arm",
+                    PullCurve::Company(joint) => joint,
+                };
+                write!(f, "the pull's {name}, control point {}", control + 1)
+            }
+            Self::Joint(index, joint) => write!(f, "waypoint {}, {joint}", index + 1),
+            Self::Turn(index, joint) => write!(f, "waypoint {}, turn of {joint}", index + 1),
+            Self::Shift(index, joint) => write!(f, "waypoint {}, shift of {joint}", index + 1),
+            Self::PullTime => f.write_str("the pull's time"),
+            Self::Time(index) => write!(f, "time of way {}", index + 1),
+        }
+    }
+}
+
 /// Phases at which a curve is free: a quadratic B-spline of three control points passes the first
 /// and the last and is drawn towards the second.
 const CONTROLS: usize = 3;
@@ -134,7 +156,7 @@ impl CycleForm {
             form.turns(&middle)?;
         }
         for (variable, seconds) in times(&middle) {
-            let name = format!("{variable:?}");
+            let name = variable.to_string();
             form.variables.push(variable);
             let factor = TIME_REACH.powf(free.reach);
             let interval = Interval::new(seconds / factor, seconds * factor);
@@ -151,11 +173,11 @@ impl CycleForm {
         for (index, waypoint) in middle.waypoints.iter().enumerate() {
             for (joint, &factor) in &waypoint.turn {
                 let variable = Variable::Turn(index, joint.clone());
-                self.add(variable, factor, TURN_REACH, ANY)?;
+                self.add(variable, factor, TURN_REACH, FACTORS)?;
             }
             for (joint, &factor) in &waypoint.shift {
                 let variable = Variable::Shift(index, joint.clone());
-                self.add(variable, factor, TURN_REACH, ANY)?;
+                self.add(variable, factor, TURN_REACH, FACTORS)?;
             }
         }
         Ok(())
@@ -204,7 +226,7 @@ impl CycleForm {
         let low = (middle - reach).max(within.lower);
         let high = (middle + reach).min(within.upper);
         let interval = Interval::new(low, high).map_err(|source| CycleFormError::Interval {
-            variable: format!("{variable:?}"),
+            variable: variable.to_string(),
             source,
         })?;
         self.variables.push(variable);
@@ -279,6 +301,12 @@ impl CycleForm {
         Ok(cycle)
     }
 }
+
+/// Factors of commands that a file may have.
+const FACTORS: Range = Range {
+    lower: -Steering::LARGEST_FACTOR,
+    upper: Steering::LARGEST_FACTOR,
+};
 
 const ANY: Range = Range {
     lower: -std::f64::consts::PI,

@@ -21,10 +21,9 @@ const SLOW: f64 = 1.7;
 /// Seeds of calibration errors that show how far a cycle is thrown off without being steered: some
 /// that neither the corners nor any test uses.
 const OFF_SEED: u64 = 101;
-/// Turn a cycle at the largest command, rad: 10°.
+/// Least turn a cycle at the largest command, rad: 10°.
 const TURN: f64 = 0.1745;
-/// Turn a cycle at half the largest command, rad: 2°. What it turns more than that at the largest one
-/// makes the command monotone.
+/// Least turn a cycle at half the largest command, rad: 2°.
 const HALF_TURN: f64 = 0.035;
 /// Cycles in which a held heading shows how far the robot comes off its line: a metre or two.
 const HELD_CYCLES: usize = 6;
@@ -127,7 +126,7 @@ pub fn for_search(
         | CycleObjective::Advance
         | CycleObjective::Speed
         | CycleObjective::Duty
-        | CycleObjective::Height => for_advance(robot),
+        | CycleObjective::Height => Ok(vec![as_it_is(robot, Scene::level())?]),
     }
 }
 
@@ -149,16 +148,9 @@ pub fn searched_corners(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingErro
     Ok(settings)
 }
 
-/// As it is, without any corner.
-///
-/// # Errors
-/// [`SettingError`] where the engine refuses it.
-pub fn for_advance(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingError> {
-    compiled(robot, [plain(SettingKind::AsItIs, 2, Role::Value)])
-}
-
-/// What a search adds where its cycle has to be steered: it turns by 10° a cycle at the largest
-/// command, and by less, but something, at half of it.
+/// What a search adds where its cycle has to be steered: it turns by 10° a cycle at the largest command, and
+/// by 2° at half of it. That it turns further at the largest is asked of what was found
+/// ([`super::steering::check_steering`]).
 ///
 /// # Errors
 /// [`SettingError`] where the engine refuses a setting.

@@ -159,6 +159,9 @@ pub struct Steering {
 }
 
 impl Steering {
+    /// Largest factor of a command, of either sign.
+    pub const LARGEST_FACTOR: f64 = 10.0;
+
     /// w(u) of equation (1), rad, of a command u, rad.
     pub fn at_waypoints(&self, turn: f64) -> f64 {
         if self.dead_band == 0.0 {
@@ -268,11 +271,6 @@ impl Cycle {
             arm: pull.arm,
             limits: self.limits,
         })
-    }
-
-    /// Whether a turn changes anything of it at some waypoint.
-    pub fn turns_at_waypoints(&self) -> bool {
-        self.waypoints.iter().any(|it| !it.turn.is_empty())
     }
 
     /// Takes its steering away, with what it adds to the waypoints.

@@ -201,7 +201,7 @@ fn the_fastest_setting_decides_whether_joints_are_fast_enough() {
         let costs = CycleCosts::new(settings.into(), ADVANCE, &base).unwrap();
         costs.cost_of_plan(&base).refusal
     };
-    let [as_it_is] = &settings::for_advance(&robot).unwrap()[..] else {
+    let [as_it_is] = &settings::for_search(CycleObjective::Advance, &robot).unwrap()[..] else {
         panic!("one setting");
     };
     let settings = [1.0, 1.7, 0.8].map(|scale| {
@@ -220,7 +220,7 @@ fn the_fastest_setting_decides_whether_joints_are_fast_enough() {
 /// What a plan breaks before anything moves, and why it cannot be crawled.
 fn in_plan(base: &Cycle, rules: CycleRules, cycle: &Cycle) -> (f64, Option<Refusal>) {
     let robot = nao();
-    let settings = &settings::for_advance(&robot).unwrap()[..1];
+    let settings = &settings::for_search(CycleObjective::Advance, &robot).unwrap()[..1];
     let aim = CycleAim { rules, ..ADVANCE };
     let costs = CycleCosts::new(settings.into(), aim, base).unwrap();
     let cost = costs.cost_of_plan(cycle);
@@ -274,7 +274,7 @@ fn a_cycle_that_cannot_be_planned_says_why_and_by_how_much() {
 fn settings_after_a_broken_one_are_not_tried() {
     let robot = nao();
     let base = cycle("hip-10");
-    let mut settings = settings::for_advance(&robot).unwrap();
+    let mut settings = settings::for_search(CycleObjective::Advance, &robot).unwrap();
     settings.push(settings[0].clone());
     settings[1].spec.role = Role::Keep(0.5);
     settings[1].spec.scale = TimeScale::new(1.7).unwrap();
@@ -306,7 +306,7 @@ fn a_setting_that_cannot_be_crawled_is_named() {
         steering: None,
         ..cycle("hip-10")
     };
-    let mut settings = settings::for_advance(&robot).unwrap();
+    let mut settings = settings::for_search(CycleObjective::Advance, &robot).unwrap();
     let turning = &settings::for_steering(&robot).unwrap()[0];
     settings.push(turning.clone());
     // A turn that the steering allows and joints are too slow for.
@@ -359,12 +359,7 @@ fn limit_what_cannot_be_compared_is_refused() {
 
 #[test]
 fn an_objective_is_written_and_read_under_its_name() {
-    for objective in [
-        CycleObjective::Heat,
-        CycleObjective::Advance,
-        CycleObjective::Speed,
-        CycleObjective::Peak,
-    ] {
+    for objective in CycleObjective::ALL {
         let name = serde_json::to_value(objective).unwrap();
         assert_eq!(name, objective.name());
         let read: CycleObjective = serde_json::from_value(name).unwrap();

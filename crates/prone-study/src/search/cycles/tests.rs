@@ -14,7 +14,7 @@ use super::super::cycle_jobs::base;
 use super::super::cycle_rules::Bounds;
 use super::super::cycle_rules::CycleRules;
 use super::super::setting::Role;
-use super::super::settings::{for_advance, for_steering, for_steering_confirmation};
+use super::super::settings::{for_search, for_steering, for_steering_confirmation};
 use super::super::steering::NotSteered;
 use super::*;
 use crate::watch::Unwatched;
@@ -55,7 +55,7 @@ fn reversed(cycle: &Cycle) -> Cycle {
 #[test]
 fn a_steerable_search_finds_what_turns_to_the_left() {
     let robot = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
-    let mut settings = for_advance(&robot).unwrap();
+    let mut settings = for_search(CycleObjective::Advance, &robot).unwrap();
     settings.truncate(1);
     settings.extend(for_steering(&robot).unwrap());
     let settings: Arc<[Setting]> = settings.into();
@@ -113,7 +113,7 @@ fn a_steerable_search_finds_what_turns_to_the_left() {
 #[test]
 fn where_no_cycle_can_be_crawled_each_says_why() {
     let robot = LoadedRobot::load(RobotFiles::shipped(&shipped::NAO)).unwrap();
-    let settings = for_advance(&robot).unwrap();
+    let settings = for_search(CycleObjective::Advance, &robot).unwrap();
     let mut hasty = shipped::cycle("hip-10").unwrap().unwrap();
     hasty.waypoints[0].approach.seconds = 0.1;
     let cycles = [hasty];
