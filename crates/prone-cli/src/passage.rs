@@ -102,14 +102,18 @@ fn print_named(passage: &Passage, named: &Candidate, out: &mut dyn Write) -> std
         named.time_s, named.mm_per_s, named.mm_per_cycle, named.worst_mm_per_cycle, named.margin_mm
     )?;
     let steers = if named.steers {
-        "steered in the corners"
+        "steered"
     } else {
         "cannot be steered"
     };
     let verdict = named.verdict.as_deref().unwrap_or("unknown");
+    let worst = match &named.worst_verdict {
+        Some(worst) if worst != verdict => format!(" ({worst} in the worst run)"),
+        _ => String::new(),
+    };
     writeln!(
         out,
-        "  {:.0} mm wide; {steers}; at most {:.0} mm off the line; on a robot's motors: {verdict}",
+        "  {:.0} mm wide; {steers}; at most {:.0} mm off the line; on a robot's motors: {verdict}{worst}",
         named.width_mm, named.drift_mm
     )?;
     let steering = if named.steers { " --heading-hold" } else { "" };

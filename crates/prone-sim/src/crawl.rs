@@ -21,6 +21,8 @@ pub use measure::{Advance, CycleRow, Row};
 pub use pace::{Bound, MOST_CYCLES, WATCHED};
 pub use touch::Touch;
 
+use std::f64::consts::TAU;
+
 use glam::DVec3;
 
 use prone::crawl::{
@@ -137,6 +139,22 @@ pub struct Crawl {
     pub arrived: bool,
     /// Engine steps of the simulation, what came before the crawl included.
     pub engine_steps: usize,
+}
+
+impl Crawl {
+    /// Farthest from the line on which the first cycle began, at the end of any cycle, m.
+    pub fn drift(&self) -> f64 {
+        let start = self.cycles.first().map_or(0.0, |cycle| cycle.from.y);
+        let ends = self.cycles.iter().map(|cycle| (cycle.to.y - start).abs());
+        ends.fold(0.0, f64::max)
+    }
+
+    /// How far it heads off that line in the end, to either side, rad.
+    pub fn askew(&self) -> f64 {
+        let ends = self.cycles.first().zip(self.cycles.last());
+        let turned = ends.map_or(0.0, |(first, last)| last.to.yaw - first.from.yaw);
+        (turned - (turned / TAU).round() * TAU).abs()
+    }
 }
 
 /// Why a crawl has no record.

@@ -1,7 +1,7 @@
 //! Whether a robot gets under a ceiling, with which cycle, and what limits it.
 //!
 //! Every cycle is crawled under a plate of the ceiling's height, from before it until the robot has come
-//! out behind it, first as everything is in the model. Those that get through without touching anything,
+//! out behind it, with its heading held where it can be steered, first as everything is in the model. Those that get through without touching anything,
 //! and stay below the ceiling by the margin, go, the fastest first, through all of the
 //! [`corners`] under the same plate, where they have to get through too; a cycle stops at
 //! the first in which it does not. The answer is the first one that gets through all of them, and where
@@ -63,8 +63,11 @@ pub struct Passage {
     pub steers: Option<bool>,
     /// Farthest from the line of the start, mm, at the end of any cycle of all its runs.
     pub drift_mm: Option<f64>,
-    /// Whether the motors of a robot can do it: `continuous`, `limited`, `not on a robot`.
+    /// Whether the motors of a robot can do it as everything is in the model: `continuous`, `limited`, `not
+    /// on a robot`.
     pub verdict: Option<String>,
+    /// The same in the worst of all its runs.
+    pub worst_verdict: Option<String>,
     /// What limits it: the part of the body that comes nearest to the ceiling, or why there is none.
     pub limited_by: String,
     /// How many corners there are.
@@ -123,7 +126,7 @@ impl Plates {
         Ok(Self {
             under,
             open: settings::as_it_is(robot, Scene::level())?,
-            ideal: settings::as_it_is(robot, scene)?,
+            ideal: settings::held(robot, scene)?,
             corners: each.collect(),
         })
     }
@@ -155,6 +158,7 @@ impl Passage {
             steers: None,
             drift_mm: None,
             verdict: None,
+            worst_verdict: None,
             limited_by: String::new(),
             corners: plates.corners.len(),
             candidates: Vec::new(),
@@ -229,6 +233,7 @@ impl Passage {
         self.steers = Some(named.steers);
         self.drift_mm = Some(named.drift_mm);
         self.verdict.clone_from(&named.verdict);
+        self.worst_verdict.clone_from(&named.worst_verdict);
     }
 
     /// The cycle of the answer, in figures.

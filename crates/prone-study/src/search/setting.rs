@@ -1,11 +1,15 @@
 //! One way to crawl a cycle: as data, and compiled into a world.
 
+use prone::crawl::{Pilot, Straight};
 use prone::gait::PhaseDuration;
-use prone::gait::cycle::TimeScale;
+use prone::gait::cycle::{Cycle, TimeScale};
+use prone::motor::{Load, Verdict};
 use prone::regime::Regime;
 use prone::robot::JointAngles;
 use prone::scene::{Scene, SideFriction};
+use prone::steering::HeadingHold;
 use prone_record::frontier::SettingKind;
+use prone_sim::crawl::Crawl;
 use prone_sim::driven::LateCommands;
 use prone_sim::{LoadedRobot, World, WorldError};
 
@@ -73,6 +77,35 @@ pub struct Setting {
     pub spec: SettingSpec,
     /// The robot on its floor.
     pub world: World,
+}
+
+impl Setting {
+    /// Who steers a cycle in it: the heading is held, where it is to be and the cycle can be steered, or
+    /// the setting's share of the cycle's largest turn is commanded.
+    pub fn pilot(&self, cycle: &Cycle) -> Box<dyn Pilot> {
+        match &cycle.steering {
+            Some(steering) if self.spec.held => {
+                let gains = self.world.robot().control.steering;
+                Box::new(HeadingHold::of(gains, steering))
+            }
+            steering => {
+                let limit = steering.as_ref().map_or(0.0, |steering| steering.limit);
+                let turn = self.spec.turn * limit;
+                Box::new(Straight { turn })
+            }
+        }
+    }
+
+    /// What a robot's motors would make of a crawl in it; nothing where they are not known.
+    pub fn verdict(&self, crawl: &Crawl) -> Option<Verdict> {
+        let load = Load {
+            robot: self.world.robot(),
+            gear_efficiency: self.world.gear_efficiency(),
+            effort: &crawl.effort,
+            head: crawl.ground.head_peak(),
+        };
+        Verdict::from_load(&load).ok()
+    }
 }
 
 impl SettingSpec {

@@ -1,11 +1,9 @@
 //! One way to crawl a cycle, and what the cycle comes to in it.
 
-use prone::crawl::{Pilot, Straight};
 use prone::gait::cycle::Cycle;
-use prone::motor::{Effort, Load, Verdict};
+use prone::motor::{Effort, Verdict};
 use prone::robot::BodyPart;
 use prone::statics::GRAVITY;
-use prone::steering::HeadingHold;
 use prone_sim::crawl::{self, Crawl, CrawlError, CrawlPlan, Detail, End, OnTouch};
 
 use super::setting::Setting;
@@ -62,7 +60,7 @@ pub fn try_out(setting: &Setting, cycle: &Cycle) -> Result<Trial, CrawlError> {
     if let (Some(pull), Some(duration)) = (&mut cycle.pull, setting.spec.pull) {
         pull.duration = duration;
     }
-    let steering = cycle.steering.clone();
+    let pilot = setting.pilot(&cycle);
     let plan = CrawlPlan {
         cycles: vec![cycle],
         scale: setting.spec.scale,
@@ -72,17 +70,6 @@ pub fn try_out(setting: &Setting, cycle: &Cycle) -> Result<Trial, CrawlError> {
         imu_seed: None,
         on_touch: OnTouch::GoOn,
         detail: Detail::Sums,
-    };
-    let pilot: Box<dyn Pilot> = match steering {
-        Some(steering) if setting.spec.held => {
-            let gains = setting.world.robot().control.steering;
-            Box::new(HeadingHold::of(gains, &steering))
-        }
-        steering => {
-            let limit = steering.map_or(0.0, |steering| steering.limit);
-            let turn = setting.spec.turn * limit;
-            Box::new(Straight { turn })
-        }
     };
     let crawl = crawl::run(&setting.world, &plan, pilot)?;
     Ok(measured(setting, &crawl))
@@ -107,26 +94,9 @@ fn measured(setting: &Setting, crawl: &Crawl) -> Trial {
         weight: weight(setting),
         body_share: last.body_share,
         yaw: advance.yaw,
-        drift: drift(crawl),
-        verdict: verdict(setting, crawl),
+        drift: crawl.drift(),
+        verdict: setting.verdict(crawl),
     }
-}
-
-fn verdict(setting: &Setting, crawl: &Crawl) -> Option<Verdict> {
-    let load = Load {
-        robot: setting.world.robot(),
-        gear_efficiency: setting.world.gear_efficiency(),
-        effort: &crawl.effort,
-        head: crawl.ground.head_peak(),
-    };
-    Verdict::from_load(&load).ok()
-}
-
-/// Farthest from the line on which the first cycle began, at the end of any cycle, m.
-fn drift(crawl: &Crawl) -> f64 {
-    let start = crawl.cycles.first().map_or(0.0, |cycle| cycle.from.y);
-    let ends = crawl.cycles.iter().map(|cycle| (cycle.to.y - start).abs());
-    ends.fold(0.0, f64::max)
 }
 
 /// The motor with the largest duty.

@@ -26,10 +26,18 @@
 //! small ones are made up to twice as large and large ones are larger by d. w is odd and rises with
 //! u everywhere.
 //!
-//! A cycle may have a second command, the shift v, positive to the left, that is added to waypoints by
-//! factors of its own: it moves the robot aside without turning it. Where a limb pushes, the angle that
+//! A cycle may have a second command, the shift v, positive to the left, that adds to waypoints by
+//! factors of its own: it moves the robot aside and turns it little. Where a limb pushes, the angle that
 //! turns and the angle that shifts are not the same, and with one of them alone a robot that is pushed
-//! aside must head askew to come back.
+//! aside must head askew to come back. A joint's factor is times
+//!
+//! ```text
+//! x(v) = v |v| / v_limit                                              (2)
+//! ```
+//!
+//! A limb that slides goes aside at the least difference between left and right: 0.5° moves the NAO by a
+//! quarter of what 12° do, so that a heading hold with the angle itself as its command would sway for
+//! ever. Over (2) the way aside is nearly in proportion to v.
 //!
 //! [`CheckedCycle::plan`] holds all of it against a robot: stops, limits that depend on another
 //! joint, joint speeds, the closed chain.
@@ -168,6 +176,14 @@ impl Steering {
             return turn;
         }
         turn + self.dead_band * turn / (turn.abs() + self.dead_band)
+    }
+
+    /// x(v) of equation (2), rad, of a shift command v, rad.
+    pub fn shift_at_waypoints(&self, shift: f64) -> f64 {
+        if self.shift_limit == 0.0 {
+            return 0.0;
+        }
+        shift * shift.abs() / self.shift_limit
     }
 }
 
@@ -321,6 +337,26 @@ mod tests {
                 assert!((0.0..=dead_band).contains(&more), "{more}");
             }
         }
+    }
+
+    /// All of it at its largest, none at none, and ever more of it on the way.
+    #[test]
+    fn a_shift_at_waypoints_is_odd_and_rises_with_the_command() {
+        let steering = |shift_limit: f64| Steering {
+            limit: 0.2,
+            shift_limit,
+            dead_band: 0.0,
+            spread: 0.0,
+            joints: BTreeMap::new(),
+        };
+        let at = |k: i32| steering(0.2).shift_at_waypoints(f64::from(k) * 0.01);
+        assert!(at(0).abs() < f64::EPSILON && (at(20) - 0.2).abs() < 1e-15);
+        assert!((at(10) - 0.05).abs() < 1e-15);
+        for k in 1..=20 {
+            assert!((at(k) + at(-k)).abs() < 1e-15);
+            assert!(at(k) > at(k - 1), "{k}");
+        }
+        assert!(steering(0.0).shift_at_waypoints(0.0).abs() < f64::EPSILON);
     }
 
     #[test]

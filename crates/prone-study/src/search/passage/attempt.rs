@@ -1,11 +1,9 @@
 //! One cycle on its way under a plate, in one setting.
 
-use prone::crawl::{Pilot, Straight};
 use prone::gait::cycle::{Cycle, TimeScale};
-use prone::motor::{Load, Verdict};
+use prone::motor::Verdict;
 use prone::robot::BodyPart;
 use prone::scene::obstacle_name;
-use prone::steering::HeadingHold;
 use prone_sim::crawl::{self, Bound, Crawl, CrawlError, CrawlPlan, Detail, End, OnTouch};
 
 use super::super::setting::Setting;
@@ -31,6 +29,8 @@ pub(super) struct Attempt {
     pub(super) width: f64,
     /// Farthest from the line of the start, m, at the end of a cycle.
     pub(super) drift: f64,
+    /// How far it heads off the line in the end, rad.
+    pub(super) askew: f64,
     /// Largest mean force on the head over 20 ms, N.
     pub(super) head: f64,
     /// What the motors did over the nominal, where they are known.
@@ -60,14 +60,7 @@ pub(super) fn attempt(
         imu_seed: None,
         detail: Detail::Sums,
     };
-    let steering = cycle.steering.as_ref();
-    let pilot: Box<dyn Pilot> = match steering.filter(|_| setting.spec.held) {
-        Some(steering) => {
-            let gains = setting.world.robot().control.steering;
-            Box::new(HeadingHold::of(gains, steering))
-        }
-        None => Box::new(Straight { turn: 0.0 }),
-    };
+    let pilot = setting.pilot(cycle);
     let crawl = crawl::run_unless(stopped, &setting.world, &plan, pilot)?;
     Ok(measured(setting, &crawl))
 }
@@ -75,12 +68,6 @@ pub(super) fn attempt(
 fn measured(setting: &Setting, crawl: &Crawl) -> Attempt {
     let world = &setting.world;
     let robot = world.robot();
-    let load = Load {
-        robot,
-        gear_efficiency: world.gear_efficiency(),
-        effort: &crawl.effort,
-        head: crawl.ground.head_peak(),
-    };
     let touched = crawl
         .touches
         .iter()
@@ -90,8 +77,6 @@ fn measured(setting: &Setting, crawl: &Crawl) -> Attempt {
         format!("{} touches {obstacle}", robot.bodies[touch.body.0].name)
     });
     let start = crawl.cycles.first().map(|cycle| cycle.from);
-    let ends = crawl.cycles.iter().map(|cycle| cycle.to);
-    let drift = ends.map(|to| (to.y - start.map_or(0.0, |from| from.y)).abs());
     let path: f64 = crawl.cycles.iter().map(|it| it.advance().forward).sum();
     let distance = crawl.cycles.last().zip(start);
     let heat = crawl.effort.heat(robot).ok();
@@ -104,9 +89,10 @@ fn measured(setting: &Setting, crawl: &Crawl) -> Attempt {
         advance: path / crawl.cycles.len().max(1) as f64,
         top: (crawl.tops.highest(), crawl.tops.part()),
         width: crawl.sides.width(),
-        drift: drift.fold(0.0, f64::max),
+        drift: crawl.drift(),
+        askew: crawl.askew(),
         head: crawl.ground.head_peak(),
-        verdict: Verdict::from_load(&load).ok(),
+        verdict: setting.verdict(crawl),
         heat_per_metre: heat.filter(|_| path > 0.0).map(|heat| heat / path),
     }
 }

@@ -1,7 +1,9 @@
 //! A cycle under a ceiling, in figures.
 
 use std::cmp::Ordering;
+use std::f64::consts::FRAC_PI_4;
 
+use prone::motor::Duty;
 use prone_sim::crawl::CrawlError;
 use serde::Serialize;
 
@@ -9,6 +11,9 @@ use super::super::corners::Corner;
 use super::super::trial::Trial;
 use super::attempt::Attempt;
 use super::{Offered, Under, millimetres};
+
+/// A robot that heads off its line by more has not crawled through but spun out, rad.
+const ASKEW: f64 = FRAC_PI_4;
 
 /// A cycle and what it came to under the ceiling.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -52,8 +57,12 @@ pub struct Candidate {
     pub steers: bool,
     /// Farthest from the line of the start, mm, at the end of any cycle of all its runs.
     pub drift_mm: f64,
-    /// Whether the motors of a robot can do it, where they are known.
+    /// Whether the motors of a robot can do it as everything is in the model, where they are known.
     pub verdict: Option<String>,
+    /// The same in the worst of all its runs.
+    pub worst_verdict: Option<String>,
+    #[serde(skip)]
+    worst_duty: Option<Duty>,
     /// Largest mean force on the head over 20 ms, N, where everything is as in the model.
     pub head_n: f64,
     /// Heat per metre of path where everything is as in the model, s/m.
@@ -90,7 +99,8 @@ impl Candidate {
                 }
             })
         });
-        let verdict = run.verdict.as_ref().map(|it| it.duty.name().to_owned());
+        let duty = run.verdict.as_ref().map(|it| it.duty);
+        let verdict = duty.map(|duty| duty.name().to_owned());
         Self {
             gait: offered.called.to_owned(),
             found_by: offered.origin.to_owned(),
@@ -111,7 +121,9 @@ impl Candidate {
             mm_per_s: open.speed() * 1e3,
             steers: offered.cycle.steering.is_some(),
             drift_mm: run.drift * 1e3,
+            worst_verdict: verdict.clone(),
             verdict,
+            worst_duty: duty,
             head_n: run.head,
             heat_per_metre_s: run.heat_per_metre,
         }
@@ -137,6 +149,8 @@ impl Candidate {
         }
         self.worst_mm_per_cycle = self.worst_mm_per_cycle.min(run.advance * 1e3);
         self.drift_mm = self.drift_mm.max(run.drift * 1e3);
+        self.worst_duty = self.worst_duty.max(run.verdict.as_ref().map(|it| it.duty));
+        self.worst_verdict = self.worst_duty.map(|duty| duty.name().to_owned());
         reason(&run).map_or(Ok(()), |reason| Err(failed(reason)))
     }
 
@@ -162,8 +176,14 @@ impl Candidate {
 
 /// Why a run did not get through, where it did not.
 fn reason(run: &Attempt) -> Option<String> {
-    if run.passed {
+    if run.passed && run.askew <= ASKEW {
         return None;
+    }
+    if run.passed {
+        return Some(format!(
+            "past it, but {:.0}° off its heading",
+            run.askew.to_degrees()
+        ));
     }
     Some(run.touched.clone().unwrap_or_else(|| {
         format!(

@@ -69,8 +69,9 @@ impl Planner<'_> {
     ) -> Result<BTreeMap<JointId, f64>, CycleError> {
         let steering = self.cycle.steering.as_ref();
         let w = steering.map_or(0.0, |steering| steering.at_waypoints(steer.turn));
+        let x = steering.map_or(0.0, |steering| steering.shift_at_waypoints(steer.shift));
         let mut added: BTreeMap<JointId, f64> = BTreeMap::new();
-        for (factors, command) in [(&waypoint.turn, w), (&waypoint.shift, steer.shift)] {
+        for (factors, command) in [(&waypoint.turn, w), (&waypoint.shift, x)] {
             for (name, factor) in factors {
                 let joint = self.joint(place, name)?;
                 *added.entry(joint).or_default() += factor * command;

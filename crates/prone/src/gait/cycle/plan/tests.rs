@@ -218,13 +218,14 @@ proptest! {
         let both = moved(&cycle, turn, shift);
         let (turned, shifted) = (moved(&cycle, turn, 0.0), moved(&cycle, 0.0, shift));
         near(&both, &turned.map(|joint, angle| angle + shifted[joint]));
-        let w = cycle.steering.as_ref().unwrap().at_waypoints(turn);
+        let steering = cycle.steering.as_ref().unwrap();
+        let (w, x) = (steering.at_waypoints(turn), steering.shift_at_waypoints(shift));
         for (name, expected) in [
-            ("Lshoulder", a * w + c * shift),
-            ("Rshoulder", -a * w - c * shift),
+            ("Lshoulder", a * w + c * x),
+            ("Rshoulder", -a * w - c * x),
             // Its twin turns the other way round, so that both rolls go to the same side.
-            ("Rroll", b * w + d * shift),
-            ("Lroll", b * w + d * shift),
+            ("Rroll", b * w + d * x),
+            ("Lroll", b * w + d * x),
             ("Lhip", 0.0),
         ] {
             prop_assert!((both[joint(name)] - expected).abs() < 1e-12, "{name}");
