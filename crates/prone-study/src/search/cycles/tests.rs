@@ -41,9 +41,8 @@ fn a_cycle_that_ships_with_steering_can_be_steered() {
 /// The same cycle, steered the other way.
 fn reversed(cycle: &Cycle) -> Cycle {
     let mut reversed = cycle.clone();
-    if let Some(steering) = &mut reversed.steering {
-        steering.spread = -steering.spread;
-        for factor in steering.joints.values_mut() {
+    for waypoint in &mut reversed.waypoints {
+        for factor in waypoint.turn.values_mut() {
             *factor = -*factor;
         }
     }
@@ -72,10 +71,14 @@ fn a_steerable_search_finds_what_turns_to_the_left() {
             ..CycleRules::FREE
         },
     };
-    let left = shipped::cycle("hip-10").unwrap().unwrap();
+    let left = shipped::cycle("low-175").unwrap().unwrap();
+    let about = Free {
+        reach: 0.02,
+        turns: false,
+    };
     let best = |base: &Cycle| {
         let (robot, aim) = (robot.robot(), aim.clone());
-        let searched = CycleSearch::new(robot, &settings, aim, base, Free::FULL).unwrap();
+        let searched = CycleSearch::new(robot, &settings, aim, base, about).unwrap();
         let mut search = Search::new(Solver::AboutTheMiddle, 1, 1, 16);
         search.proceed(&Threads(Searched::new(&searched)), |_| {
             ControlFlow::Continue(())
