@@ -104,6 +104,9 @@ fn of_cycle_search(error: CycleSearchError, experiment: &Experiment) -> Failure 
             "--{} goes with --objective heat and peak, which alone look at several servos",
             what.replace('_', "-")
         ),
+        CycleSearchError::DriftUnused => {
+            "--most-drift-mm is looked at in corners, which --ideal leaves out".to_owned()
+        }
         CycleSearchError::WorstOver { .. } => format!("--worst-over {error}"),
         _ => return Failure::input(error),
     };

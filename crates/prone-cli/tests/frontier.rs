@@ -162,9 +162,9 @@ fn a_search_of_cycles_is_lengthened() {
     let whole = result("whole");
     assert_eq!(whole, result("longer"));
     assert_eq!(whole, result("timed"));
-    // Less is refused, and the result stays.
+    // Less is refused, and another search, and the result stays.
     let out = at("whole");
-    let fewer = [
+    let search = [
         "optimize",
         "--objective",
         "speed",
@@ -176,19 +176,26 @@ fn a_search_of_cycles_is_lengthened() {
         "3",
         "--runs",
         "2",
-        "--budget",
-        "32",
         "--resume",
         "--out",
         &out,
     ];
-    let refused = prone(&fewer);
-    assert_eq!(refused.status.code(), Some(2));
-    let message = String::from_utf8(refused.stderr).unwrap();
-    assert!(
-        message.contains("has a budget of 48 evaluations"),
-        "{message}"
-    );
+    for (more, said) in [
+        (&["--budget", "32"][..], "has a budget of 48 evaluations"),
+        (
+            &["--budget", "64", "--reach", "0.5"],
+            "reach was 1.0, and is 0.5 now",
+        ),
+        (
+            &["--budget", "64", "--ideal"],
+            "ideal was false, and is true now",
+        ),
+    ] {
+        let refused = prone(&[&search, more].concat());
+        assert_eq!(refused.status.code(), Some(2));
+        let message = String::from_utf8(refused.stderr).unwrap();
+        assert!(message.contains(said), "{message}");
+    }
     assert_eq!(whole, result("whole"));
 }
 
@@ -252,7 +259,19 @@ fn what_fits_and_what_does_not_is_said_with_its_reason() {
         succeeded(&done);
         serde_json::from_slice(&done.stdout).unwrap()
     };
-    let named = under("230", &["thesis-nominal", "hip-10", "--length-m", "0.3"]);
+    let home = tempfile::tempdir().unwrap();
+    let written = home.path().join("answer.toml");
+    let named = under(
+        "200",
+        &[
+            "far-200",
+            "low-165",
+            "--length-m",
+            "0.5",
+            "--gait-out",
+            written.to_str().unwrap(),
+        ],
+    );
     assert_eq!(named["feasible"], true);
     assert_eq!(named["found_by"], "shipped");
     let candidates = named["candidates"].as_array().unwrap();
@@ -260,12 +279,25 @@ fn what_fits_and_what_does_not_is_said_with_its_reason() {
         .iter()
         .map(|it| it["gait"].as_str().unwrap())
         .collect();
-    assert_eq!(tried, BTreeSet::from(["hip-10", "thesis-nominal"]));
+    assert_eq!(tried, BTreeSet::from(["far-200", "low-165"]));
     // The answer is the first that gets through all corners, or else the fastest that passes.
     let robust = candidates.iter().find(|it| it["robust"] == true);
     let answer = robust.unwrap_or(&candidates[0]);
     assert_eq!(named["gait"], answer["gait"]);
     assert_eq!(named["time_s"], answer["time_s"]);
+    // That one is written, with its own figures, and not the fastest.
+    assert_ne!(answer["gait"], candidates[0]["gait"]);
+    let written = fs::read_to_string(written).unwrap();
+    let name = format!("name = {}\n", answer["gait"]);
+    let header = format!(
+        "# Passes 200 mm over 0.5 m in all 24 corners, with {:.1} mm to spare, {:.1} mm per cycle",
+        answer["margin_mm"].as_f64().unwrap(),
+        answer["mm_per_cycle"].as_f64().unwrap()
+    );
+    assert!(
+        written.contains(&name) && written.starts_with(&header),
+        "{written}"
+    );
     let low = under("115", &["hip-10"]);
     assert_eq!(low["feasible"], false);
     assert_eq!(low["impossible"], true);
@@ -275,7 +307,6 @@ fn what_fits_and_what_does_not_is_said_with_its_reason() {
         "{low}"
     );
     // A user's file does not ship, also where it has the name of one that does.
-    let home = tempfile::tempdir().unwrap();
     let gait = home.path().join("mine.toml");
     let text = include_str!("../../../robots/nao/gaits/thesis-nominal.toml");
     fs::write(&gait, format!("{text}\n# mine\n")).unwrap();

@@ -11,6 +11,9 @@
 //! which is Deb's order only while values differ by less than the weight times the steps of the
 //! violation; the run's best is still chosen by [`Score`](crate::Score).
 //!
+//! Where means lie about the middle of the bounds only, that point is known to be good: it is scored
+//! first, alone, so that nothing worse is ever found.
+//!
 //! A search of the crate begins at a random mean and ends by its own criteria; then another begins,
 //! with the population doubled from search to search up to `2^doublings`, then small again.
 //!
@@ -64,6 +67,8 @@ pub struct CovarianceMatrix {
     random: Random,
     searches: u64,
     search: Option<Search>,
+    /// Whether the middle of the bounds is still to be scored.
+    middle_first: bool,
 }
 
 /// A search of the crate: how it began, and what it was told.
@@ -85,6 +90,7 @@ impl CovarianceMatrix {
             random: Random::new(seed),
             searches: 0,
             search: None,
+            middle_first: options.middle < 1.0,
         }
     }
 
@@ -106,6 +112,12 @@ impl CovarianceMatrix {
 impl Solver for CovarianceMatrix {
     fn advance(&mut self, evaluator: &mut Evaluator<'_>) -> Result<(), NoScores> {
         let bounds = evaluator.bounds();
+        if self.middle_first {
+            let middle = bounds.iter().map(|interval| interval.at(0.5));
+            evaluator.evaluate(vec![middle.collect()])?;
+            self.middle_first = false;
+            return Ok(());
+        }
         let most = self.options.evaluations_per_search;
         let going_on = self.search.take();
         let going_on = going_on.filter(|search| search.told.len() + search.population <= most);

@@ -166,6 +166,12 @@ pub struct CyclePlan {
     pub objective: CycleObjective,
     /// Whether only cycles that can be steered count.
     pub steerable: bool,
+    /// Whether the corners are left out; those of an earlier record were others.
+    #[serde(default)]
+    pub ideal: bool,
+    /// Size of the searched box, as a share of the largest.
+    #[serde(default = "whole")]
+    pub reach: f64,
     /// Under which ceilings, by which rules.
     #[serde(flatten)]
     pub under: UnderPlan,
@@ -175,6 +181,11 @@ pub struct CyclePlan {
     pub regime: String,
     /// Of which robot.
     pub robot: RobotInfo,
+}
+
+/// Searches had no smaller box once.
+const fn whole() -> f64 {
+    1.0
 }
 
 /// Under which ceilings cycles are searched, by which rules.

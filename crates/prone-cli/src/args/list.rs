@@ -15,7 +15,7 @@ Examples:
 A gait is a pull alone; a cycle has its way back and can crawl. Each cycle is crawled three times
 round on level ground, as `prone crawl run --cycles 3` does: the highest point of the robot, its
 advance, motor heat per metre, whether a robot's motors could do it, and the largest force on the
-head. Names of the robot's own are marked with *; they go before those that ship.")]
+head. Names of the robot's own are marked with *; they take precedence over those that ship.")]
 pub(crate) struct ListArgs {
     /// List names of one kind alone
     #[arg(long, value_enum)]

@@ -105,15 +105,17 @@ impl<S: Serialize + DeserializeOwned> Snapshot<S> {
     }
 }
 
-/// What a finished work has left in its result folder.
+/// What a finished work has left in its result folder. It was put in place whole: what breaks off there was
+/// cut since, and is refused, as work that begins anew would replace the result.
 fn finished<S: DeserializeOwned>(place: &Place) -> Result<Earlier<S>, ResumptionError> {
     match place.standing()? {
-        Standing::Nothing if place.path.exists() => Ok(Earlier::Torn),
+        Standing::Nothing if place.path.exists() => Err(place.damaged(1, "")),
         Standing::Nothing => Ok(Earlier::Nothing),
         Standing::Other(format) => Err(place.other_format(format)),
         Standing::Kept(bytes) => {
             let (mut states, _) = place.states(&bytes)?;
-            Ok(states.pop().map_or(Earlier::Torn, Earlier::State))
+            let state = states.pop().map(Earlier::State);
+            state.ok_or_else(|| place.damaged(2, ""))
         }
     }
 }

@@ -372,4 +372,10 @@ fn a_finished_search_is_resumed_from_its_result_folder() {
     fs::write(&path, kept.replace("[1,2,3]", "[1,2,4]")).unwrap();
     let refused = refusal(earlier(&statics, Opening::Resume), home.path());
     assert!(refused.contains("line 2"), "{refused}");
+    // So is what was cut: beginning anew would replace the result.
+    for cut in [0, 10, kept.len() - 5] {
+        fs::write(&path, &kept[..cut]).unwrap();
+        let refused = refusal(earlier(&statics, Opening::Resume), home.path());
+        assert!(refused.contains("is damaged"), "{refused}");
+    }
 }

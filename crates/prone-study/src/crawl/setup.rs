@@ -104,25 +104,19 @@ impl CrawlSetup {
         let gait = GaitSource::from_text(&experiment.gait)?;
         let uphill = experiment.uphill.as_ref().map(GaitSource::from_text);
         let uphill = uphill.transpose()?;
+        if let Some(uphill) = &uphill {
+            let without = [&gait, uphill].into_iter();
+            if let Some(source) = without.into_iter().find(|it| it.cycle.pull.is_none()) {
+                let gait = source.cycle.name.clone();
+                return Err(CrawlSetupError::NoPull { gait });
+            }
+        }
         let scene = scene(&experiment.scene)?;
         let world = World::in_scene(&robot, regime(experiment), &scene)?;
         let scale = TimeScale::new(experiment.time_scale)?;
         let steering = steering(experiment.steering, &gait)?;
-        for steer in steering.extremes() {
-            for gait in [Some(&gait), uphill.as_ref()].into_iter().flatten() {
-                let most = gait.cycle.steering.as_ref();
-                let most = most.map_or(0.0, |it| it.shift_limit);
-                let shift = steer.shift.clamp(-most, most);
-                let steer = Steer { shift, ..steer };
-                let (robot, stops) = (world.robot(), world.stops());
-                let checked = CheckedCycle::plan_steered(robot, stops, &gait.cycle, steer, scale)
-                    .map_err(|error| gait.refused(&error))?;
-                check_limbs(&world, &checked).map_err(|source| CrawlSetupError::Limbs {
-                    file: (!gait.is_shipped()).then(|| gait.file.clone()),
-                    source: Box::new(source),
-                })?;
-            }
-        }
+        let sources = [Some(&gait), uphill.as_ref()];
+        check_plans(&world, sources.into_iter().flatten(), &steering, scale)?;
         let (end, past) = end(experiment.ending, &world)?;
         let offsets = experiment
             .joint_offset_deg
@@ -374,6 +368,31 @@ fn check(experiment: &CrawlExperiment) -> Result<(), CrawlSetupError> {
             _ => Ok(()),
         },
     }
+}
+
+/// Holds cycles, steered as far as they are to be, against the robot.
+fn check_plans<'a>(
+    world: &World,
+    sources: impl Iterator<Item = &'a GaitSource> + Clone,
+    steering: &Steering,
+    scale: TimeScale,
+) -> Result<(), CrawlSetupError> {
+    for steer in steering.extremes() {
+        for gait in sources.clone() {
+            let most = gait.cycle.steering.as_ref();
+            let most = most.map_or(0.0, |it| it.shift_limit);
+            let shift = steer.shift.clamp(-most, most);
+            let steer = Steer { shift, ..steer };
+            let (robot, stops) = (world.robot(), world.stops());
+            let checked = CheckedCycle::plan_steered(robot, stops, &gait.cycle, steer, scale)
+                .map_err(|error| gait.refused(&error))?;
+            check_limbs(world, &checked).map_err(|source| CrawlSetupError::Limbs {
+                file: (!gait.is_shipped()).then(|| gait.file.clone()),
+                source: Box::new(source),
+            })?;
+        }
+    }
+    Ok(())
 }
 
 /// What a robot may have that its model has not.

@@ -4,14 +4,18 @@ use std::sync::{Mutex, PoisonError};
 
 use prone::gait::cycle::CycleError;
 use prone::gait::{CurveError, PhaseDurationError};
-use prone_optim::{Failure, Interval, Problem, Score};
+use prone_optim::{Answer, Failure, Interval, Problem, Query, Score, Scorer};
 use prone_record::frontier::SettingKind;
 use prone_record::gait_search::Broken;
+use prone_record::measure::Measure;
+use prone_record::search::Search;
 use prone_sim::crawl::CrawlError;
 use prone_sim::self_collision::SelfCollisionError;
+use rayon::prelude::*;
 
 use super::pull_trial::PullTrialError;
 use super::trial::Trial;
+use crate::watch::{Progress, Watch};
 
 /// Gaits of one form under one set of rules. It owns what it needs, so that a worker can hold it.
 pub trait Candidates: Send + Sync + 'static {
@@ -171,6 +175,48 @@ impl<'a, C> Searched<'a, C> {
         if best.as_ref().is_none_or(|(best, _)| score.beats(best)) {
             *best = Some((score, broken));
         }
+    }
+}
+
+/// Scores candidates on the current rayon pool until a watch says stop: what has not begun by then is left
+/// out, and the generation is given up.
+pub struct Watched<'a, C> {
+    searched: Searched<'a, C>,
+    watch: &'a dyn Watch,
+}
+
+impl<'a, C: Candidates> Watched<'a, C> {
+    /// None of them has been looked at.
+    pub const fn new(candidates: &'a C, watch: &'a dyn Watch) -> Self {
+        Self {
+            searched: Searched::new(candidates),
+            watch,
+        }
+    }
+
+    /// Tells the watch how a search goes, with the rules that its best breaks.
+    pub fn tell(&self, search: &Search, measure: Measure) {
+        let best = search.best();
+        let broken = best.map_or_else(Vec::new, |(_, it)| self.searched.broken_by(&it.score));
+        self.watch.progress(&Progress::Searching {
+            search,
+            measure,
+            broken: &broken,
+        });
+    }
+}
+
+impl<C: Candidates> Scorer for Watched<'_, C> {
+    fn bounds(&self) -> &[Interval] {
+        self.searched.bounds()
+    }
+
+    fn score(&self, batch: &[Query]) -> Vec<Answer> {
+        let answers = batch.par_iter().filter_map(|query| {
+            let goes_on = !self.watch.stop();
+            goes_on.then(|| (query.id, self.searched.evaluate(&query.point)))
+        });
+        answers.collect()
     }
 }
 

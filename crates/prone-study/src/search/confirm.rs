@@ -90,7 +90,7 @@ fn confirmed_cycle(
         match tried {
             Ok(trial) => {
                 let kept = trial.advance / *first.get_or_insert(trial.advance);
-                all_hold &= holds(role, &trial, kept, bounds);
+                all_hold &= holds(&setting.spec, &trial, kept, bounds);
                 cycle_row(setting, &trial, kept)
             }
             Err(error) => {

@@ -31,7 +31,7 @@ pub fn cost(
     let base = experiment.from.as_ref();
     let base: Cycle = base.map_or_else(|| Ok(cycle.clone()), |it| it.parse(cycle_file::parse))?;
     let worst_over = experiment.worst_over.as_ref();
-    cycle_jobs::check_one(objective, &experiment.rules, worst_over)?;
+    cycle_jobs::check_rules(objective, &experiment.rules, worst_over)?;
     let scope = Scope {
         objective,
         held: None,

@@ -1,17 +1,22 @@
 //! What is searched at each value of what is held, a ceiling in most cases: the cycle that is searched
 //! about, the rules, the plan.
 
+mod error;
+mod rules;
+
+pub use error::CycleSearchError;
+pub use rules::{asked_rules, check_rules, usual_rules};
+
 use std::sync::Arc;
 
-use prone::gait::cycle::{Cycle, TimeScale};
-use prone::motor::Duty;
+use prone::gait::cycle::Cycle;
 use prone::regime::Regime;
 use prone::robot::Robot;
 use prone_files::cycle_file;
-use prone_files::plain_name::{self, GaitNameError};
+use prone_files::plain_name;
 use prone_record::experiment::{
-    CycleRulesChoice, CycleSearchExperiment, LeastVerdict, Limit, NamedGait, PullSearchExperiment,
-    TextError, Under, check_heights,
+    CycleRulesChoice, CycleSearchExperiment, Limit, NamedGait, PullSearchExperiment, Under,
+    check_heights,
 };
 use prone_record::frontier::{CycleObjective, Quantity};
 use prone_record::measure::Heats;
@@ -19,104 +24,16 @@ use prone_record::program::{Program, RobotInfo};
 use prone_record::search::Solver;
 use prone_record::search_plan::{CyclePlan, OnePlan, SearchHead, UnderPlan};
 use prone_sim::LoadedRobot;
-use prone_sim::crawl::CrawlError;
 
-use super::cycle_cost::{CycleAim, CycleCostError, CycleSearch, Merge};
+use super::cycle_cost::{CycleAim, CycleSearch, Merge};
 use super::cycle_form::Free;
-use super::cycle_rules::CycleRules;
 use super::room::{NoRoom, too_low};
 use super::run::Job;
 use super::setting::Setting;
 use super::settings::{self, SettingError};
 use super::trial::{Trial, try_out};
 use crate::watch::Watch;
-
-/// Why cycles cannot be searched.
-#[derive(Debug, thiserror::Error)]
-pub enum CycleSearchError {
-    /// A number that no search can have.
-    #[error(transparent)]
-    Limit(#[from] Limit),
-    /// A name that is none of a file.
-    #[error(transparent)]
-    Name(#[from] GaitNameError),
-    /// A cycle cannot be read.
-    #[error(transparent)]
-    Text(#[from] TextError),
-    /// A value stands twice in the list.
-    #[error("{value} {} is there twice", held.unit())]
-    Twice {
-        /// What is held.
-        held: Quantity,
-        /// At which value, in its unit.
-        value: f64,
-    },
-    /// A frontier is between two quantities.
-    #[error("a frontier is between two quantities, not between {0} and {0}", quantity.name())]
-    Same {
-        /// The one that was given twice.
-        quantity: Quantity,
-    },
-    /// The other cycle's heats would not be looked at.
-    #[error("worst_over changes nothing of the objective peak without most_heat")]
-    WorstOverUnused,
-    /// The margin leaves nothing of a ceiling.
-    #[error(transparent)]
-    NoRoom(#[from] NoRoom),
-    /// No gait of the robot fits under a ceiling.
-    #[error("{ceiling_mm} mm is too low for {robot}: {reason}")]
-    TooLow {
-        /// The ceiling, mm.
-        ceiling_mm: f64,
-        /// The robot's name.
-        robot: String,
-        /// What does not fit.
-        reason: String,
-    },
-    /// Only the objectives of heat and peak look at heats with several servos.
-    #[error("{what} goes with the objectives heat and peak only")]
-    HeatUnused {
-        /// `worst_over` or `most_heat`.
-        what: &'static str,
-    },
-    /// [`Watch::stop`] said so.
-    #[error("stopped")]
-    Stopped,
-    /// A setting cannot be made.
-    #[error(transparent)]
-    Setting(#[from] SettingError),
-    /// Cycles have no costs.
-    #[error(transparent)]
-    Costs(#[from] CycleCostError),
-    /// The cycle that heats are compared with cannot be crawled.
-    #[error("{gait}: {source}")]
-    WorstOver {
-        /// As it was called.
-        gait: String,
-        /// Why.
-        source: CrawlError,
-    },
-    /// No cycle to begin with.
-    #[error(
-        "there is no cycle that {robot} can crawl to begin with{}",
-        listed(refused)
-    )]
-    NoCycle {
-        /// The robot's name.
-        robot: String,
-        /// Names of the cycles that were tried, and why they cannot be crawled.
-        refused: Vec<(String, CrawlError)>,
-    },
-}
-
-/// One line a cycle.
-fn listed(refused: &[(String, CrawlError)]) -> String {
-    let lines = refused.iter();
-    let lines: Vec<String> = lines
-        .map(|(cycle, error)| format!("\n  {cycle}: {error}"))
-        .collect();
-    lines.concat()
-}
+use rules::held_rules;
 
 /// One search a ceiling, each with the cycle that is searched about.
 pub fn jobs(
@@ -138,12 +55,6 @@ pub fn jobs(
         ideal: experiment.ideal,
     };
     let searched = searched(scope, robot)?;
-    Limit::check(
-        "a reach",
-        "",
-        experiment.reach,
-        CycleSearchExperiment::REACH,
-    )?;
     let free = Free {
         reach: experiment.reach,
         turns: experiment.steerable,
@@ -154,16 +65,16 @@ pub fn jobs(
             rules, worst_over, ..
         } => (merge(worst_over.as_ref(), &searched)?, **rules),
     };
+    let tried = tried(robot, &searched[0], &from)?;
     let job = |Point { at, height }| {
         if watch.stop() {
             return Err(CycleSearchError::Stopped);
         }
         // A search for the lowest cycle begins at the lowest one.
-        let below = match objective {
-            CycleObjective::Height => 0.0,
-            _ => height,
+        let base = match objective {
+            CycleObjective::Height => below(&tried, 0.0),
+            _ => below(&tried, height),
         };
-        let base = base(robot, &searched[0], &from, below)?;
         let usual = usual_rules(objective, height, base, robot.robot());
         let aim = CycleAim {
             objective,
@@ -258,6 +169,8 @@ pub fn plan(
         head,
         objective: experiment.objective,
         steerable: experiment.steerable,
+        ideal: experiment.ideal,
+        reach: experiment.reach,
         under: under_plan(experiment, jobs.first().map(|(job, _)| job)),
         bases: jobs.iter().map(|(job, _)| job.base.clone()).collect(),
         regime: Regime::LOCOMOTION.name.to_owned(),
@@ -295,31 +208,6 @@ fn points(under: &Under) -> Vec<Point> {
     }
 }
 
-/// Rules with a quantity held at a value, in its unit; a ceiling is the height of the rules already.
-/// Where the speed is held, a cycle may be as short as it likes.
-fn held_rules(held: Quantity, at: Option<f64>, rules: CycleRules) -> CycleRules {
-    let Some(at) = at else {
-        return rules;
-    };
-    match held {
-        Quantity::Ceiling => rules,
-        Quantity::Advance => CycleRules {
-            advance: at * 1e-3,
-            ..rules
-        },
-        Quantity::Speed => CycleRules {
-            least_speed: at * 1e-3,
-            advance: CycleRules::FREE.advance,
-            ..rules
-        },
-        Quantity::Heat => CycleRules { heat: at, ..rules },
-        Quantity::Duty => CycleRules {
-            most_duty: at,
-            ..rules
-        },
-    }
-}
-
 /// What can be said of a search before anything is crawled.
 fn check(
     experiment: &CycleSearchExperiment,
@@ -327,6 +215,8 @@ fn check(
     robot: &Robot,
 ) -> Result<(), CycleSearchError> {
     experiment.runs.check()?;
+    let (reach, bounds) = (experiment.reach, CycleSearchExperiment::REACH);
+    Limit::check("a reach", "", reach, bounds)?;
     if let Some(seconds) = experiment.time_budget_s {
         let bounds = (0.0, PullSearchExperiment::LONGEST_S);
         Limit::check("a time budget", " s", seconds, bounds)?;
@@ -360,7 +250,10 @@ fn check(
             name,
         } => {
             name.as_deref().map_or(Ok(()), plain_name::check_gait)?;
-            check_one(experiment.objective, rules, worst_over.as_ref())?;
+            check_rules(experiment.objective, rules, worst_over.as_ref())?;
+            if experiment.ideal && rules.most_drift_mm.is_some() {
+                return Err(CycleSearchError::DriftUnused);
+            }
         }
     }
     for point in points {
@@ -374,29 +267,6 @@ fn check(
                 reason,
             });
         }
-    }
-    Ok(())
-}
-
-/// Checks rules that were asked for: each is one, and counts.
-pub fn check_one(
-    objective: CycleObjective,
-    rules: &CycleRulesChoice,
-    worst_over: Option<&NamedGait>,
-) -> Result<(), CycleSearchError> {
-    rules.check()?;
-    let several = matches!(objective, CycleObjective::Heat | CycleObjective::Peak);
-    let heats = [
-        ("worst_over", worst_over.is_some()),
-        ("most_heat", rules.most_heat.is_some()),
-    ];
-    let unused = heats.iter().find(|(_, asked)| *asked && !several);
-    if let Some((what, _)) = unused {
-        return Err(CycleSearchError::HeatUnused { what });
-    }
-    let unread = objective == CycleObjective::Peak && rules.most_heat.is_none();
-    if worst_over.is_some() && unread {
-        return Err(CycleSearchError::WorstOverUnused);
     }
     Ok(())
 }
@@ -418,31 +288,6 @@ pub fn merge(
         gait: named.called.clone(),
         source,
     })
-}
-
-/// The rules that were asked for, and the usual ones where none was.
-pub fn asked_rules(asked: &CycleRulesChoice, usual: CycleRules) -> CycleRules {
-    let millimetres = asked.least_advance_mm.map(|mm| mm * 1e-3);
-    let share = asked.body_share_percent.map(|percent| percent / 100.0);
-    let demanded = asked.demanded_shoulder_nm;
-    CycleRules {
-        advance: millimetres.unwrap_or(usual.advance),
-        demanded_shoulder: demanded.unwrap_or(usual.demanded_shoulder),
-        body_share: share.unwrap_or(usual.body_share),
-        heat: asked.most_heat.unwrap_or(usual.heat),
-        drift: asked.most_drift_mm.map_or(usual.drift, |mm| mm * 1e-3),
-        head: asked.most_head_n.unwrap_or(usual.head),
-        verdict: match asked.verdict {
-            None => usual.verdict,
-            Some(LeastVerdict::Continuous) => Duty::Continuous,
-            Some(LeastVerdict::Limited) => Duty::Limited,
-        },
-        least_speed: asked
-            .least_speed_mm_s
-            .map_or(usual.least_speed, |it| it * 1e-3),
-        most_duty: asked.most_duty.unwrap_or(usual.most_duty),
-        ..usual
-    }
 }
 
 fn under_plan(experiment: &CycleSearchExperiment, job: Option<&Job<CycleSearch>>) -> UnderPlan {
@@ -477,39 +322,6 @@ fn under_plan(experiment: &CycleSearchExperiment, job: Option<&Job<CycleSearch>>
     }
 }
 
-/// The usual rules of a search below a height, m: for all but advance and speed the robot's least
-/// advance; for advance, speed and duty a cycle no longer than the one that it is searched about, as
-/// whoever takes more time advances farther, and with less torque.
-pub fn usual_rules(
-    objective: CycleObjective,
-    height: f64,
-    base: &Cycle,
-    robot: &Robot,
-) -> CycleRules {
-    let free = CycleRules {
-        ceiling: height,
-        ..CycleRules::FREE
-    };
-    match objective {
-        CycleObjective::Heat
-        | CycleObjective::HeatRate
-        | CycleObjective::Peak
-        | CycleObjective::Height => CycleRules {
-            advance: robot.search.least_advance,
-            ..free
-        },
-        CycleObjective::Duty => CycleRules {
-            advance: robot.search.least_advance,
-            seconds: base.duration(TimeScale::ONE),
-            ..free
-        },
-        CycleObjective::Advance | CycleObjective::Speed => CycleRules {
-            seconds: base.duration(TimeScale::ONE),
-            ..free
-        },
-    }
-}
-
 /// The base of a search under a height, m: of the cycles that stay below it, the one that advances
 /// most in the first of the settings; where none does, the lowest.
 ///
@@ -521,6 +333,18 @@ pub fn base<'c>(
     cycles: &'c [Cycle],
     height: f64,
 ) -> Result<&'c Cycle, CycleSearchError> {
+    Ok(below(&tried(robot, setting, cycles)?, height))
+}
+
+/// Cycles with what they do in a setting; those that cannot be crawled are left out.
+///
+/// # Errors
+/// [`CycleSearchError::NoCycle`] where none is left.
+fn tried<'c>(
+    robot: &LoadedRobot,
+    setting: &Setting,
+    cycles: &'c [Cycle],
+) -> Result<Vec<(&'c Cycle, Trial)>, CycleSearchError> {
     let mut tried: Vec<(&Cycle, Trial)> = Vec::with_capacity(cycles.len());
     let mut refused = Vec::new();
     for cycle in cycles {
@@ -529,12 +353,20 @@ pub fn base<'c>(
             Err(error) => refused.push((cycle.name.clone(), error)),
         }
     }
+    if tried.is_empty() {
+        return Err(CycleSearchError::NoCycle {
+            robot: robot.robot().name.clone(),
+            refused,
+        });
+    }
+    Ok(tried)
+}
+
+/// Of cycles that were tried, at least one, the base of a search under a height, m.
+fn below<'c>(tried: &[(&'c Cycle, Trial)], height: f64) -> &'c Cycle {
     let below = tried.iter().filter(|(_, trial)| trial.top.0 <= height);
     let farthest = below.max_by(|a, b| a.1.advance.total_cmp(&b.1.advance));
     let lowest = || tried.iter().min_by(|a, b| a.1.top.0.total_cmp(&b.1.top.0));
-    let chosen = farthest.or_else(lowest).map(|(cycle, _)| *cycle);
-    chosen.ok_or_else(|| CycleSearchError::NoCycle {
-        robot: robot.robot().name.clone(),
-        refused,
-    })
+    let (cycle, _) = farthest.or_else(lowest).unwrap_or(&tried[0]);
+    cycle
 }

@@ -11,8 +11,9 @@
 //!
 //! What is not a number keeps no rule: it breaks it by [`UNTRIED`].
 //!
-//! A search and a confirmation ask for the same things, height, advance and heading, with two
-//! differences that are on purpose:
+//! A search and a confirmation ask for height, head, advance, heading and drift alike; what else a search
+//! holds, verdict, speed, duty, heat, duration, is of the setting as it is, which both have. Two
+//! differences are on purpose:
 //!
 //! - In a search a cycle whose highest point is *at* the height breaks nothing, as violations are
 //!   continuous and that height is a margin below the ceiling. In a confirmation it does not hold,
@@ -148,12 +149,14 @@ impl Role {
 }
 
 /// Whether a cycle does in a setting what its role asks of a confirmation: it stays below the ceiling,
-/// m, keeps the force on its head to a bound, N, goes where it should, advances, and keeps its share
-/// of the first setting's advance.
-pub fn holds(role: Role, trial: &Trial, kept: f64, Bounds { ceiling, head }: Bounds) -> bool {
+/// m, keeps the force on its head to a bound, N, goes where it should, stays near its line where the heading
+/// is held, advances, and keeps its share of the first setting's advance.
+pub fn holds(spec: &SettingSpec, trial: &Trial, kept: f64, bounds: Bounds) -> bool {
+    let role = spec.role;
     let enough = kept >= role.keep().unwrap_or(HOLDS);
-    let directed = role.misdirected(trial) <= 0.0;
-    let free = trial.top.0 < ceiling && trial.head <= head;
+    let on_its_line = !spec.held || trial.drift <= bounds.drift;
+    let directed = role.misdirected(trial) <= 0.0 && on_its_line;
+    let free = trial.top.0 < bounds.ceiling && trial.head <= bounds.head;
     role == Role::Beside || (free && enough && directed && trial.advance > 0.0)
 }
 
@@ -164,6 +167,8 @@ pub struct Bounds {
     pub ceiling: f64,
     /// Largest mean force on the head over 20 ms, N.
     pub head: f64,
+    /// Farthest from the line where the heading is held, m.
+    pub drift: f64,
 }
 
 impl Bounds {
@@ -171,6 +176,7 @@ impl Bounds {
     pub const NONE: Self = Self {
         ceiling: f64::INFINITY,
         head: f64::INFINITY,
+        drift: f64::INFINITY,
     };
 }
 

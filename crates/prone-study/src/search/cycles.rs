@@ -205,6 +205,7 @@ impl SearchRun for CycleRun {
             let bounds = Bounds {
                 ceiling: ceiling_mm.map_or(f64::INFINITY, |mm| mm * 1e-3),
                 head: job.candidates.rules().head,
+                drift: job.candidates.rules().drift,
             };
             for run in search.runs() {
                 if watch.stop() {

@@ -29,7 +29,7 @@ use super::corners::{self, Asked, Corner};
 use super::room::too_low;
 use super::setting::{HOLDS, Role, Setting};
 use super::settings::{self, SettingError};
-use super::trial::try_out;
+use super::trial::try_out_unless;
 use crate::watch::{Progress, Watch};
 use attempt::{Attempt, attempt};
 
@@ -248,6 +248,10 @@ impl Passage {
         lowest.map_or_else(
             || "cycles that the robot cannot crawl".to_owned(),
             |lowest| {
+                let fits = self.ceiling_mm - lowest.open_top_mm >= self.asked_margin_mm;
+                if let (true, Some(reason)) = (fits, &lowest.obstructed) {
+                    return format!("{reason} in {}, the lowest cycle tried", lowest.gait);
+                }
                 format!(
                     "the {}: {:.1} mm high in {}, the lowest cycle tried, and {:.1} mm are left",
                     lowest.open_top_part,
@@ -272,8 +276,8 @@ fn ideal(
     watch: &dyn Watch,
 ) -> Result<(Candidate, Attempt), String> {
     let (cycle, under) = (offered.cycle, plates.under);
-    let trial = try_out(&plates.open, cycle).map_err(|error| reason(&error))?;
     let stopped = || watch.stop();
+    let trial = try_out_unless(&stopped, &plates.open, cycle).map_err(|error| reason(&error))?;
     let run = attempt(&plates.ideal, cycle, plates.end(), &stopped);
     let run = run.map_err(|error| reason(&error))?;
     watch.progress(&Progress::Done(1));

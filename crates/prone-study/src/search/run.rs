@@ -6,7 +6,6 @@ use std::time::{Duration, Instant};
 
 use prone::cost::CostError;
 use prone::cost::objective::NoMotor;
-use prone_optim::Threads;
 use prone_record::measure::Measure;
 use prone_record::output::Artefacts;
 use prone_record::resumption::{self, ResumptionError, STATE_FILE, Snapshot, Work};
@@ -18,8 +17,8 @@ use prone_report::figures::{Figure, FigureError, PNG_SCALE};
 use serde::Serialize;
 use serde_json::json;
 
-use super::candidates::{Candidates, PointError, Searched};
-use crate::watch::{Progress, Watch};
+use super::candidates::{Candidates, PointError, Watched};
+use crate::watch::Watch;
 
 /// One box of gaits to search.
 #[derive(Debug)]
@@ -185,25 +184,15 @@ fn proceed<R: SearchRun>(
         return Ok(SearchEnd::Finished);
     };
     let measure = run.measure();
-    watch.progress(&Progress::Searching {
-        search,
-        measure,
-        broken: &[],
-    });
-    let scorer = Threads(Searched::new(&job.candidates));
+    let scorer = Watched::new(&job.candidates, watch);
+    scorer.tell(search, measure);
     let all = |search: &Search| -> Vec<Search> {
         let around = before.iter().chain([search]).chain(after.iter());
         around.cloned().collect()
     };
     let mut kept = Ok(());
     let end = search.proceed(&scorer, |search| {
-        let best = search.best();
-        let broken = best.map_or_else(Vec::new, |(_, it)| scorer.0.broken_by(&it.score));
-        watch.progress(&Progress::Searching {
-            search,
-            measure,
-            broken: &broken,
-        });
+        scorer.tell(search, measure);
         // A budget too small for one generation leaves nothing to keep.
         if let (Some(checkpoint), true) = (&mut checkpoint, search.best().is_some()) {
             kept = checkpoint.keep(&all(search));

@@ -155,7 +155,16 @@ pub fn searched_corners(robot: &LoadedRobot) -> Result<Vec<Setting>, SettingErro
         cycles: 2,
         role: Role::Keep(KEEP),
     };
-    let mut settings = corners::settings(robot, &Scene::level(), SEARCHED, asked)?;
+    on_level_ground(robot, SEARCHED, asked)
+}
+
+/// Corners on a level floor; on uneven ground for as long as it takes a drift to show.
+fn on_level_ground(
+    robot: &LoadedRobot,
+    corners: impl IntoIterator<Item = Corner>,
+    asked: Asked,
+) -> Result<Vec<Setting>, SettingError> {
+    let mut settings = corners::settings(robot, &Scene::level(), corners, asked)?;
     for setting in &mut settings {
         if setting.spec.offsets.is_some() {
             setting.spec.cycles = HELD_CYCLES;
@@ -233,7 +242,7 @@ pub fn for_confirmation(
         cycles: 3,
         role: Role::Keep(HOLDS),
     };
-    let corners = corners::settings(robot, &Scene::level(), corners::all(), asked)?;
+    let corners = on_level_ground(robot, corners::all(), asked)?;
     let fine = SettingSpec {
         regime: Regime {
             time_step: 0.001,

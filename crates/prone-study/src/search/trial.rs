@@ -56,6 +56,15 @@ impl Trial {
 
 /// Crawls a cycle in one setting.
 pub fn try_out(setting: &Setting, cycle: &Cycle) -> Result<Trial, CrawlError> {
+    try_out_unless(&|| false, setting, cycle)
+}
+
+/// The same, ended at once where `stopped` says so, whatever has come of it by then.
+pub fn try_out_unless(
+    stopped: &dyn Fn() -> bool,
+    setting: &Setting,
+    cycle: &Cycle,
+) -> Result<Trial, CrawlError> {
     let mut cycle = cycle.clone();
     if let (Some(pull), Some(duration)) = (&mut cycle.pull, setting.spec.pull) {
         pull.duration = duration;
@@ -71,7 +80,7 @@ pub fn try_out(setting: &Setting, cycle: &Cycle) -> Result<Trial, CrawlError> {
         on_touch: OnTouch::GoOn,
         detail: Detail::Sums,
     };
-    let crawl = crawl::run(&setting.world, &plan, pilot)?;
+    let crawl = crawl::run_unless(stopped, &setting.world, &plan, pilot)?;
     Ok(measured(setting, &crawl))
 }
 

@@ -90,6 +90,12 @@ pub enum CrawlSetupError {
         /// The cycle's name.
         gait: String,
     },
+    /// A slope is felt in a pull.
+    #[error("a slope is felt in the pull of a cycle; {gait} has none")]
+    NoPull {
+        /// The cycle's name.
+        gait: String,
+    },
     /// A cycle that cannot turn cannot keep a heading.
     #[error("keeping a heading needs a cycle that can turn; {gait} has no [steering]")]
     NoSteering {

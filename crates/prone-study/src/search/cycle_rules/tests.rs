@@ -396,7 +396,8 @@ fn a_cycle_holds_where_it_is_low_and_far_and_turns() {
         verdict: None,
     };
     let at = |role: Role, kept: f64, ceiling: f64| {
-        super::holds(role, &trial, kept, Bounds { ceiling, head: 1.0 })
+        let bounds = Bounds { ceiling, ..BOUNDS };
+        super::holds(&setting(role, OWN), &trial, kept, bounds)
     };
     assert!(at(Role::Value, 1.0, 0.18));
     for ceiling in [0.16, 0.17, f64::NAN] {
@@ -418,20 +419,40 @@ fn a_cycle_holds_where_it_is_low_and_far_and_turns() {
             ..trial.clone()
         };
         let role = Role::Turn(0.02);
-        assert!(!super::holds(role, &bad, 1.0, BOUNDS), "{bad:?}");
+        assert!(
+            !super::holds(&setting(role, OWN), &bad, 1.0, BOUNDS),
+            "{bad:?}"
+        );
     }
     for head in [1.1, f64::NAN] {
         let bad = Trial {
             head,
             ..trial.clone()
         };
-        assert!(!super::holds(Role::Value, &bad, 1.0, BOUNDS), "{head} N");
+        assert!(
+            !super::holds(&setting(Role::Value, OWN), &bad, 1.0, BOUNDS),
+            "{head} N"
+        );
+    }
+    // Off the line it holds only where no heading is held.
+    for (held, drift, on_its_line) in [(true, 9.5, false), (true, 9.0, true), (false, 9.5, true)] {
+        let spec = SettingSpec {
+            held,
+            ..setting(Role::Value, OWN)
+        };
+        let trial = Trial {
+            drift,
+            ..trial.clone()
+        };
+        let holds = super::holds(&spec, &trial, 1.0, BOUNDS);
+        assert_eq!(holds, on_its_line, "{drift} m, held: {held}");
     }
 }
 
 const BOUNDS: Bounds = Bounds {
     ceiling: 0.18,
     head: 1.0,
+    drift: 9.0,
 };
 
 /// In shares of the weight, whatever the setting is for.

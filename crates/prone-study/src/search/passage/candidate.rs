@@ -47,7 +47,8 @@ pub struct Candidate {
     pub margin_mm: f64,
     /// The widest it gets about its own heading where everything is as in the model, mm.
     pub width_mm: f64,
-    /// Advance per cycle where everything is as in the model, mm.
+    /// Advance per cycle where everything is as in the model, mm; on open ground where it does not pass, as
+    /// speed, verdict and head.
     pub mm_per_cycle: f64,
     /// Least advance per cycle of all its runs, mm.
     pub worst_mm_per_cycle: f64,
@@ -99,12 +100,20 @@ impl Candidate {
                 }
             })
         });
-        let duty = run.verdict.as_ref().map(|it| it.duty);
+        let passes = obstructed.is_none();
+        // What stands before a plate does not crawl: of that the figures are those of open ground.
+        let (verdict, advance, speed, head) = if passes {
+            let path = run.advance * run.cycles as f64;
+            (&run.verdict, run.advance, path / run.seconds, run.head)
+        } else {
+            (&open.verdict, open.advance, open.speed(), open.head)
+        };
+        let duty = verdict.as_ref().map(|it| it.duty);
         let verdict = duty.map(|duty| duty.name().to_owned());
         Self {
             gait: offered.called.to_owned(),
             found_by: offered.origin.to_owned(),
-            passes: obstructed.is_none(),
+            passes,
             robust: None,
             corners_passed: 0,
             failed: None,
@@ -116,15 +125,15 @@ impl Candidate {
             top_part: part.name().to_owned(),
             margin_mm: millimetres(spare),
             width_mm: millimetres(run.width),
-            mm_per_cycle: run.advance * 1e3,
-            worst_mm_per_cycle: run.advance * 1e3,
-            mm_per_s: open.speed() * 1e3,
+            mm_per_cycle: advance * 1e3,
+            worst_mm_per_cycle: advance * 1e3,
+            mm_per_s: speed * 1e3,
             steers: offered.cycle.steering.is_some(),
             drift_mm: run.drift * 1e3,
             worst_verdict: verdict.clone(),
             verdict,
             worst_duty: duty,
-            head_n: run.head,
+            head_n: head,
             heat_per_metre_s: run.heat_per_metre,
         }
     }

@@ -4,21 +4,20 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use prone::gait::cycle::Cycle;
-use prone_optim::Threads;
 use prone_record::experiment::PassageSearch;
 use prone_record::frontier::CycleObjective;
 use prone_record::measure::{Heats, Measure};
 use prone_record::search::{Search, SearchEnd, Solver};
 use prone_sim::LoadedRobot;
 
-use super::super::candidates::{Candidates as _, Searched};
+use super::super::candidates::{Candidates as _, Watched};
 use super::super::cycle_cost::{CycleAim, CycleSearch, Merge};
 use super::super::cycle_form::Free;
 use super::super::cycle_jobs::{self, CycleSearchError};
 use super::super::run::SearchError;
 use super::super::setting::Setting;
 use super::super::settings;
-use crate::watch::{Progress, Watch};
+use crate::watch::Watch;
 
 /// Share of the largest box that is searched: the base is the cycle that fits best.
 const REACH: f64 = 0.4;
@@ -61,15 +60,9 @@ pub fn search(
 ) -> Result<Option<Cycle>, SearchError> {
     let mut search = Search::new(Solver::AboutTheMiddle, asked.seed, 1, asked.budget);
     let measure = Measure::of_cycles(CycleObjective::Advance, Heats::PerMetre);
-    let scorer = Threads(Searched::new(searched));
+    let scorer = Watched::new(searched, watch);
     let end = search.proceed(&scorer, |search| {
-        let best = search.best();
-        let broken = best.map_or_else(Vec::new, |(_, it)| scorer.0.broken_by(&it.score));
-        watch.progress(&Progress::Searching {
-            search,
-            measure,
-            broken: &broken,
-        });
+        scorer.tell(search, measure);
         if watch.stop() {
             ControlFlow::Break(())
         } else {
