@@ -233,6 +233,36 @@ fn uneven_ground_is_held_where_open_loop_drifts_away() {
     assert!(held.abs() < 0.04, "held {held} m");
 }
 
+/// On an even floor a held heading has nothing to do: what it does there is to sway.
+#[test]
+fn a_held_heading_does_not_sway_on_an_even_floor() {
+    let world = World::new(&nao(), Regime::LOCOMOTION).unwrap();
+    let gains = world.robot().control.steering;
+    let cycles = shipped::cycle_names().map(|name| shipped::cycle(name).unwrap().unwrap());
+    let steered = cycles.filter_map(|cycle| Some((cycle.steering.clone()?, cycle)));
+    let swaying: Vec<String> = steered
+        .filter_map(|(steering, cycle)| {
+            let name = cycle.name.clone();
+            let plan = CrawlPlan {
+                cycles: vec![cycle],
+                scale: TimeScale::ONE,
+                end: End::Cycles(14),
+                offsets: None,
+                late: None,
+                imu_seed: None,
+                on_touch: OnTouch::GoOn,
+                detail: Detail::Sums,
+            };
+            let crawl = run(&world, &plan, HeadingHold::of(gains, &steering)).unwrap();
+            let aside = crawl.cycles[4..].iter().map(|it| it.to.y.abs());
+            let aside = aside.fold(0.0, f64::max);
+            let sways = aside > 0.06 || crawl.askew().to_degrees() > 6.0;
+            sways.then(|| format!("{name}: {aside:.3} m, {:.1}°", crawl.askew().to_degrees()))
+        })
+        .collect();
+    assert!(swaying.is_empty(), "{swaying:?}");
+}
+
 #[test]
 fn a_heading_is_reached_without_overshoot() {
     let robot = nao();

@@ -202,7 +202,7 @@ fn identity_energy_closes_and_forces_balance_over_a_cycle() {
         MotorServo::STIFF,
         LOOSE,
     ];
-    let gaits = ["thesis-nominal", "thesis-optimal", "hip-10"];
+    let gaits = ["thesis-nominal", "thesis-optimal", "hip-10", "low-150"];
     let mut cases = Vec::new();
     for time_step in steps {
         for servo in servos {
@@ -405,7 +405,7 @@ fn measured(robot: &LoadedRobot, gait: &str, servo: MotorServo, time_step: f64) 
 #[test]
 fn identity_a_finer_step_changes_nothing() {
     let robot = nao();
-    let gaits = ["thesis-nominal", "thesis-optimal", "hip-10"];
+    let gaits = ["thesis-nominal", "thesis-optimal", "hip-10", "low-150"];
     let normal = gaits.map(|gait| (gait, MotorServo::ROBOT, 0.05, 0.03));
     let stiff = gaits.map(|gait| (gait, MotorServo::STIFF, 0.10, 0.04));
     let cases: Vec<_> = normal.into_iter().chain(stiff).collect();
