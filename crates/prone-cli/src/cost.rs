@@ -11,6 +11,7 @@ use prone_study::run::CostOutcome;
 
 use crate::Failure;
 use crate::args::optimize::CostArgs;
+use crate::cells::{number, trimmed};
 use crate::plan::{OnContact, Plan, Work};
 use crate::{cycle_search, pull_terms};
 
@@ -88,9 +89,6 @@ pub(crate) fn print_cycle(cost: &CycleCost, out: &mut dyn Write) -> std::io::Res
         "\n{:>30}{:>14}{:>9}{:>9}{:>10}{:>7}{:>8}  breaks",
         "setting", "mm per cycle", "mm/s", "top mm", "heat s/m", "duty", "head N"
     )?;
-    let number = |value: Option<f64>, decimals: usize| {
-        value.map_or_else(|| "–".to_owned(), |value| format!("{value:.decimals$}"))
-    };
     for SettingCost { row, broken } in &cost.settings {
         let broken = broken.iter();
         let broken: Vec<String> = broken
@@ -146,10 +144,4 @@ fn print_broken(broken: &[Broken], out: &mut dyn Write) -> std::io::Result<()> {
         )?;
     }
     Ok(())
-}
-
-/// Four decimals, without zeros at the end.
-fn trimmed(value: f64) -> String {
-    let text = format!("{value:.4}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }

@@ -18,6 +18,7 @@ use crate::args::cycle_rules::{CycleRulesArgs, VerdictName};
 use crate::args::optimize::{OptimizeArgs, SolverName};
 use crate::args::passage::{AgainstName, FrontierArgs};
 use crate::args::pull_terms::{ObjectiveName, PullTermsArgs};
+use crate::cells::number;
 use crate::gait::find_cycle;
 use crate::plan::{self, OnContact, Plan, Work};
 
@@ -265,9 +266,6 @@ pub(crate) fn print(frontier: &Frontier, out: &mut dyn Write) -> std::io::Result
         "duty",
         "breaks"
     )?;
-    let number = |value: Option<f64>, decimals: usize| {
-        value.map_or_else(|| "–".to_owned(), |value| format!("{value:.decimals$}"))
-    };
     let rows = frontier.found.iter().map(|found| {
         let at = found
             .at

@@ -6,6 +6,7 @@ use prone_study::catalogue::{self, CatalogueError, CycleFigures, Listed, ListedK
 use prone_study::run::{RunError, Session};
 
 use crate::args::list::{KindName, ListArgs};
+use crate::cells::number;
 use crate::progress::Progress;
 use crate::{Failure, interrupt, program};
 
@@ -129,9 +130,9 @@ fn row(figures: &CycleFigures, turns: &str) -> String {
         verdict,
         head_n,
     } = figures;
-    let heat = heat_per_metre_s.map_or_else(|| "–".to_owned(), |heat| format!("{heat:.0}"));
+    let heat = number(*heat_per_metre_s, 0);
     let verdict = verdict.as_deref().unwrap_or("unknown");
-    let wide = width_mm.map_or_else(|| "–".to_owned(), |width| format!("{width:.0}"));
+    let wide = number(*width_mm, 0);
     format!(
         "{height_mm:>9.1}{wide:>6}{mm_per_cycle:>10.1}{mm_per_s:>7.1}{heat:>10}  {verdict:<15}{head_n:>8.1}{turns:>7}"
     )

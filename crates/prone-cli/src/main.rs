@@ -5,6 +5,7 @@
 //! was cut off), 130 stopped by the user.
 
 mod args;
+mod cells;
 mod completions;
 mod cost;
 mod crawl;

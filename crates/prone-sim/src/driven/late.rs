@@ -27,6 +27,15 @@ pub struct LateCommands {
 impl LateCommands {
     /// Time between two commands on a bus that is slow, s: half as often as the NAO's own.
     pub const SLOW: f64 = 0.02;
+
+    /// On such a bus, each late by up to so many ms.
+    pub fn slow(ms: f64, seed: u64) -> Self {
+        Self {
+            every: Self::SLOW,
+            at_most: ms / 1e3,
+            seed,
+        }
+    }
 }
 
 /// Begins another sequence than that of the inertial unit's noise, which has the same seed.

@@ -105,8 +105,8 @@ impl CrawlSetup {
         let uphill = experiment.uphill.as_ref().map(GaitSource::from_text);
         let uphill = uphill.transpose()?;
         if let Some(uphill) = &uphill {
-            let without = [&gait, uphill].into_iter();
-            if let Some(source) = without.into_iter().find(|it| it.cycle.pull.is_none()) {
+            let mut both = [&gait, uphill].into_iter();
+            if let Some(source) = both.find(|it| it.cycle.pull.is_none()) {
                 let gait = source.cycle.name.clone();
                 return Err(CrawlSetupError::NoPull { gait });
             }
@@ -116,18 +116,15 @@ impl CrawlSetup {
         let scale = TimeScale::new(experiment.time_scale)?;
         let steering = steering(experiment.steering, &gait)?;
         let sources = [Some(&gait), uphill.as_ref()];
-        check_plans(&world, sources.into_iter().flatten(), &steering, scale)?;
+        let sources: Vec<&GaitSource> = sources.into_iter().flatten().collect();
+        check_plans(&world, &sources, &steering, scale)?;
         let (end, past) = end(experiment.ending, &world)?;
         let offsets = experiment
             .joint_offset_deg
             .zip(experiment.seed)
             .map(|(degrees, seed)| offsets(world.robot(), degrees.to_radians(), seed));
         let late = experiment.late_commands_ms.zip(experiment.seed);
-        let late = late.map(|(ms, seed)| LateCommands {
-            every: LateCommands::SLOW,
-            at_most: ms / 1e3,
-            seed,
-        });
+        let late = late.map(|(ms, seed)| LateCommands::slow(ms, seed));
         let most_cycles = match end {
             End::Cycles(cycles) => cycles,
             End::Past { bound, .. } => bound.most_cycles(),
@@ -371,18 +368,15 @@ fn check(experiment: &CrawlExperiment) -> Result<(), CrawlSetupError> {
 }
 
 /// Holds cycles, steered as far as they are to be, against the robot.
-fn check_plans<'a>(
+fn check_plans(
     world: &World,
-    sources: impl Iterator<Item = &'a GaitSource> + Clone,
+    sources: &[&GaitSource],
     steering: &Steering,
     scale: TimeScale,
 ) -> Result<(), CrawlSetupError> {
     for steer in steering.extremes() {
-        for gait in sources.clone() {
-            let most = gait.cycle.steering.as_ref();
-            let most = most.map_or(0.0, |it| it.shift_limit);
-            let shift = steer.shift.clamp(-most, most);
-            let steer = Steer { shift, ..steer };
+        for gait in sources {
+            let steer = gait.cycle.shifted_as_far(steer);
             let (robot, stops) = (world.robot(), world.stops());
             let checked = CheckedCycle::plan_steered(robot, stops, &gait.cycle, steer, scale)
                 .map_err(|error| gait.refused(&error))?;

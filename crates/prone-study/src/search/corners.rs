@@ -224,11 +224,7 @@ impl Corner {
     /// How late commands reach the servos.
     pub fn late(self) -> Option<LateCommands> {
         match self {
-            Self::LateCommands { ms, seed } => Some(LateCommands {
-                every: LateCommands::SLOW,
-                at_most: ms / 1e3,
-                seed,
-            }),
+            Self::LateCommands { ms, seed } => Some(LateCommands::slow(ms, seed)),
             _ => None,
         }
     }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::gait::cycle::{CheckedCycle, Cycle, Steer, TimeScale};
+use crate::gait::cycle::{CheckedCycle, Cycle, TimeScale};
 use crate::robot::{Range, Robot};
 
 use super::course::PhaseKind;
@@ -93,11 +93,7 @@ impl Program {
             asked: decision.cycle,
             cycles: self.cycles.len(),
         })?;
-        // What holds a line may ask a shift of a cycle that has none, or less.
-        let most = cycle.steering.as_ref().map_or(0.0, |it| it.shift_limit);
-        let Steer { turn, shift } = decision.steer;
-        let shift = shift.clamp(-most, most);
-        let steer = Steer { turn, shift };
+        let steer = cycle.shifted_as_far(decision.steer);
         let planned = CheckedCycle::plan_steered(robot, stops, cycle, steer, self.scale);
         planned.map(Arc::new).map_err(|source| CrawlerError::Cycle {
             cycle: number,

@@ -289,6 +289,15 @@ impl Cycle {
         })
     }
 
+    /// A command with no more of a shift than this cycle takes: what holds a line may ask one of a cycle that
+    /// has none, or less.
+    #[must_use]
+    pub fn shifted_as_far(&self, Steer { turn, shift }: Steer) -> Steer {
+        let most = self.steering.as_ref().map_or(0.0, |it| it.shift_limit);
+        let shift = shift.clamp(-most, most);
+        Steer { turn, shift }
+    }
+
     /// Takes its steering away, with what it adds to the waypoints.
     pub fn forget_steering(&mut self) {
         self.steering = None;
