@@ -256,6 +256,8 @@ pub struct SteeringTable {
     pub aside_rad_m: Number,
     /// Turn commanded per sum of heading errors, of cycles that can be shifted.
     pub yaw_sum: Number,
+    /// How far ahead of the root the point lies about which a turn turns cycles that can be shifted, m.
+    pub ahead_m: Number,
 }
 
 /// `[search]`

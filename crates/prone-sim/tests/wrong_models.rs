@@ -486,10 +486,10 @@ const TABLES: &[Refusal] = &[
     (
         "yaw_sum = 0.3",
         "yaw_sum = -0.3",
-        "nao/robot.toml:412:11: yaw_sum must be within 0..100, not -0.3",
+        "nao/robot.toml:413:11: yaw_sum must be within 0..100, not -0.3",
     ),
     (
-        "[control.steering]\nyaw = 0.9\nlateral_rad_m = 3.5\nlateral_sum_rad_m = 0.35\naside_rad_m = 0.7             # these two of cycles that can be shifted\nyaw_sum = 0.3\n",
+        "[control.steering]\nyaw = 0.8\nlateral_rad_m = 2.0\nlateral_sum_rad_m = 0.3\naside_rad_m = 0.7             # these three of cycles that can be shifted\nyaw_sum = 0.3\nahead_m = 0.4                 # between elbows and head: a turn slides the trunk 5 mm to the other side per degree\n",
         "",
         "nao/robot.toml:400:1: missing field `steering`; docs/robot.md describes every section and key",
     ),

@@ -16,9 +16,13 @@
 //! (e), less steeply than without a shift:
 //!
 //! ```text
-//! u = clip(−k (ψ + e y + c Σ ψ), ±limit)                              (2)
-//! v = clip(−(a y + b Σ y), ±shift limit)                              (3)
+//! y' = y + L ψ
+//! u = clip(−k (ψ + e y' + c Σ ψ), ±limit)                             (2)
+//! v = clip(−(a y' + b Σ y'), ±shift limit)                            (3)
 //! ```
+//!
+//! y' is the offset of a point at L ahead of the root, about which a turn turns the robot: its own offset a
+//! turn changes, and a shift that answered it would turn the robot back.
 
 use std::f64::consts::TAU;
 
@@ -57,7 +61,7 @@ impl Bearing {
 /// The commands of equation (1), or (2) and (3), cycle after cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HeadingHold {
-    /// k, a, b, c and e.
+    /// k, a, b, c, e and L.
     pub gains: SteeringGains,
     /// The largest |u|, rad.
     pub limit: f64,
@@ -103,19 +107,18 @@ impl HeadingHold {
         }
         let gains = self.gains;
         let heading = shorter(bearing.yaw);
+        let aside = bearing.y + gains.ahead * heading;
         let turn = Held {
-            wanted: |sum: f64| {
-                -gains.yaw * (heading + gains.aside * bearing.y + gains.yaw_sum * sum)
-            },
+            wanted: |sum: f64| -gains.yaw * (heading + gains.aside * aside + gains.yaw_sum * sum),
             limit: self.limit,
         };
         let shift = Held {
-            wanted: |sum: f64| -(gains.lateral * bearing.y + gains.lateral_sum * sum),
+            wanted: |sum: f64| -(gains.lateral * aside + gains.lateral_sum * sum),
             limit: self.shift_limit,
         };
         Steer {
             turn: turn.command(&mut self.yaw_sum, heading),
-            shift: shift.command(&mut self.sum, bearing.y),
+            shift: shift.command(&mut self.sum, aside),
         }
     }
 
@@ -128,6 +131,7 @@ impl HeadingHold {
             lateral_sum,
             aside: _,
             yaw_sum: _,
+            ahead: _,
         } = self.gains;
         let heading = shorter(bearing.yaw);
         let held = Held {
@@ -191,6 +195,7 @@ mod tests {
         lateral_sum: 0.35,
         aside: 0.5,
         yaw_sum: 0.2,
+        ahead: 0.3,
     };
 
     #[test]
@@ -213,7 +218,10 @@ mod tests {
             }),
         );
         assert!(with.shift < 0.0 && with.turn < 0.0 && with.turn > without.turn);
-        assert!(steer(0.0, 0.05).turn < 0.0 && steer(0.0, 0.05).shift.abs() < 1e-15);
+        assert!(steer(0.0, 0.05).turn < 0.0);
+        // Turned about a point ahead that is on the line, it is turned back and not moved.
+        let about = steer(-0.3 * 0.05, 0.05);
+        assert!(about.turn < 0.0 && about.shift.abs() < 1e-15);
         assert!(
             (steer(1.0, 0.0).shift + 0.1).abs() < f64::EPSILON,
             "clipped"

@@ -60,6 +60,7 @@ struct SteeringDocument {
     lateral_sum_rad_m: f64,
     aside_rad_m: f64,
     yaw_sum: f64,
+    ahead_m: f64,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -155,6 +156,7 @@ impl ControlDocument {
                 lateral_sum_rad_m: control.steering.lateral_sum,
                 aside_rad_m: control.steering.aside,
                 yaw_sum: control.steering.yaw_sum,
+                ahead_m: control.steering.ahead,
             },
             uphill_rad: control.uphill,
         }
@@ -176,6 +178,7 @@ impl ControlDocument {
                 lateral_sum: gain("lateral_sum_rad_m", steering.lateral_sum_rad_m)?,
                 aside: gain("aside_rad_m", steering.aside_rad_m)?,
                 yaw_sum: gain("yaw_sum", steering.yaw_sum)?,
+                ahead: gain("ahead_m", steering.ahead_m)?,
             },
             uphill: positive("uphill_rad", self.uphill_rad, bounds::SLOPE)?,
         })

@@ -72,9 +72,10 @@ fn reference_keys_hold_what_the_sources_say() {
         ("bias", &imu["gyroscope_rad_s"]["bias_bound"], 0.01),
         ("step", &control["command_step_s"], 0.01),
         ("gears", &control["gear_efficiency"], 0.6),
-        ("yaw", &control["steering"]["yaw"], 0.9),
+        ("yaw", &control["steering"]["yaw"], 0.8),
         ("lateral", &control["steering"]["lateral_rad_m"], 2.0),
         ("sum", &control["steering"]["lateral_sum_rad_m"], 0.3),
+        ("ahead", &control["steering"]["ahead_m"], 0.4),
         ("yaw sum", &control["steering"]["yaw_sum"], 0.3),
         ("aside", &control["steering"]["aside_rad_m"], 0.7),
         ("uphill", &control["uphill_rad"], 1.5_f64.to_radians()),
@@ -127,6 +128,7 @@ fn robots() -> impl Strategy<Value = Robot> {
         robot.control.command_step = number();
         robot.control.steering.lateral_sum = number();
         robot.control.steering.yaw_sum = number();
+        robot.control.steering.ahead = number();
         robot.control.steering.aside = number();
         if flags[5] {
             robot.coupled_limits.clear();
@@ -362,6 +364,7 @@ fn limit_what_no_limit_by_another_joint_and_no_gain_is() {
     let refusals = [
         ("/robot/control/steering/yaw_sum", json!(-0.1)),
         ("/robot/control/steering/aside_rad_m", json!(100.5)),
+        ("/robot/control/steering/ahead_m", json!(-0.4)),
         ("/robot/coupled_limits/0/joint", json!("Tail")),
         ("/robot/coupled_limits/0/joint", json!("HeadYaw")),
         ("/robot/coupled_limits/0/by", json!("Tail")),

@@ -33,6 +33,8 @@ pub struct SteeringGains {
     pub aside: f64,
     /// c, heading error per sum of the heading errors over the cycles, of cycles that can be shifted.
     pub yaw_sum: f64,
+    /// L, how far ahead of the root the point lies about which a turn turns cycles that can be shifted, m.
+    pub ahead: f64,
 }
 
 /// Within what searches look for cycles of a robot.

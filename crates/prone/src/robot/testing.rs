@@ -168,6 +168,7 @@ pub(crate) fn two_armed() -> Robot {
                 lateral_sum: 0.3,
                 aside: 0.5,
                 yaw_sum: 0.2,
+                ahead: 0.3,
             },
             uphill: 0.03,
         },
