@@ -105,7 +105,7 @@ static NAO_PULLS: [(&str, &str); 8] = [
 /// The cycles with the published postures, then those that keep low, then those for a robot's motors,
 /// those that are fastest under a ceiling on good ground, those of little motor heat and of least torque
 /// asked of the shoulders, and chains.
-static NAO_CYCLES: [(&str, &str); 19] = [
+static NAO_CYCLES: [(&str, &str); 21] = [
     of_nao!("thesis-nominal"),
     of_nao!("thesis-optimal"),
     of_nao!("low-200"),
@@ -124,6 +124,8 @@ static NAO_CYCLES: [(&str, &str); 19] = [
     of_nao!("efficient"),
     of_nao!("gentle"),
     of_nao!("chain-200"),
+    of_nao!("chain-175"),
+    of_nao!("chain-165"),
     of_nao!("hip-10"),
 ];
 
