@@ -124,8 +124,8 @@ static NAO_CYCLES: [(&str, &str); 21] = [
     of_nao!("efficient"),
     of_nao!("gentle"),
     of_nao!("chain-200"),
-    of_nao!("chain-175"),
-    of_nao!("chain-165"),
+    of_nao!("chain-178"),
+    of_nao!("chain-168"),
     of_nao!("hip-10"),
 ];
 
