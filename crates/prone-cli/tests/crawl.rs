@@ -166,7 +166,7 @@ fn plates_are_touched_or_passed() {
         (600.0..1200.0).contains(&number(&passed, "distance_mm")),
         "{passed}"
     );
-    assert!(number(&passed, "lateral_mm").abs() < 50.0);
+    assert!(number(&passed, "lateral_mm").abs() < 120.0);
 }
 
 /// A touch is a failure where that is asked for, with its record in place; without one nothing fails.

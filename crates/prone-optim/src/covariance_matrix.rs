@@ -11,8 +11,8 @@
 //! which is Deb's order only while values differ by less than the weight times the steps of the
 //! violation; the run's best is still chosen by [`Score`](crate::Score).
 //!
-//! Where means lie about the middle of the bounds only, that point is known to be good: it is scored
-//! first, alone, so that nothing worse is ever found.
+//! A point that is known to be good ([`Scorer::known`](crate::Scorer::known)) is scored first, alone, so that
+//! nothing worse is ever found.
 //!
 //! A search of the crate begins at a random mean and ends by its own criteria; then another begins,
 //! with the population doubled from search to search up to `2^doublings`, then small again.
@@ -67,8 +67,8 @@ pub struct CovarianceMatrix {
     random: Random,
     searches: u64,
     search: Option<Search>,
-    /// Whether the middle of the bounds is still to be scored.
-    middle_first: bool,
+    /// Whether a point that is known to be good is still to be scored.
+    known_first: bool,
 }
 
 /// A search of the crate: how it began, and what it was told.
@@ -90,7 +90,7 @@ impl CovarianceMatrix {
             random: Random::new(seed),
             searches: 0,
             search: None,
-            middle_first: options.middle < 1.0,
+            known_first: true,
         }
     }
 
@@ -112,10 +112,10 @@ impl CovarianceMatrix {
 impl Solver for CovarianceMatrix {
     fn advance(&mut self, evaluator: &mut Evaluator<'_>) -> Result<(), NoScores> {
         let bounds = evaluator.bounds();
-        if self.middle_first {
-            let middle = bounds.iter().map(|interval| interval.at(0.5));
-            evaluator.evaluate(vec![middle.collect()])?;
-            self.middle_first = false;
+        if let (true, Some(known)) = (self.known_first, evaluator.known()) {
+            let known = known.to_vec();
+            evaluator.evaluate(vec![known])?;
+            self.known_first = false;
             return Ok(());
         }
         let most = self.options.evaluations_per_search;

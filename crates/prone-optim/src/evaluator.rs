@@ -47,6 +47,11 @@ impl<'p> Evaluator<'p> {
         self.scorer.bounds()
     }
 
+    /// A point that is known to be good, where there is one.
+    pub fn known(&self) -> Option<&[f64]> {
+        self.scorer.known()
+    }
+
     /// Scores points, in order.
     ///
     /// # Errors

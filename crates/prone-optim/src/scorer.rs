@@ -35,6 +35,11 @@ pub trait Scorer {
     /// Limits of each variable; points outside are never asked for.
     fn bounds(&self) -> &[Interval];
 
+    /// A point that is known to be good, where there is one: a search about it scores it first.
+    fn known(&self) -> Option<&[f64]> {
+        None
+    }
+
     /// A result for each point, in any order. A result that is missing means that the work was cut
     /// short: the generation is given up, and the run can go on from the one before.
     fn score(&self, batch: &[Query]) -> Vec<Answer>;

@@ -76,19 +76,33 @@ fn a_generation_is_one_population() {
     assert_eq!(evaluations, (1..=20).map(|k| 12 * k).collect::<Vec<_>>());
 }
 
+/// A valley with a point of it that is known.
+struct Known(Rosenbrock, Vec<f64>);
+
+impl crate::Scorer for Known {
+    fn bounds(&self) -> &[Interval] {
+        self.0.bounds()
+    }
+
+    fn known(&self) -> Option<&[f64]> {
+        Some(&self.1)
+    }
+
+    fn score(&self, batch: &[crate::Query]) -> Vec<crate::Answer> {
+        Threads(&self.0).score(batch)
+    }
+}
+
 /// Where a good point is known, nothing worse is found, however short the search.
 #[test]
-fn the_middle_is_scored_first_where_the_search_is_about_it() {
-    let problem = Rosenbrock(vec![Interval::new(0.5, 1.5).unwrap(); 4]);
-    let options = CovarianceMatrixOptions {
-        middle: 0.2,
-        ..CovarianceMatrixOptions::default()
-    };
-    let mut run = Run::new(CovarianceMatrix::new(options, 3));
+fn a_point_that_is_known_to_be_good_is_scored_first() {
+    let problem = Rosenbrock(vec![Interval::new(-2.0, 1.5).unwrap(); 4]);
+    let known = Known(problem, vec![1.0; 4]);
+    let mut run = Run::new(CovarianceMatrix::new(CovarianceMatrixOptions::default(), 3));
     let mut history = crate::History::default();
-    run.proceed(&Threads(&problem), &Termination::after(1), &mut history);
+    run.proceed(&known, &Termination::after(1), &mut history);
     assert_eq!(run.best().unwrap().point, vec![1.0; 4]);
-    run.proceed(&Threads(&problem), &Termination::after(30), &mut history);
+    run.proceed(&known, &Termination::after(30), &mut history);
     let evaluations: Vec<_> = history.0.iter().map(|g| g.evaluations).collect();
     assert_eq!(evaluations, [1, 13, 25]);
     assert_eq!(run.best().unwrap().point, vec![1.0; 4]);

@@ -25,6 +25,11 @@ pub trait Candidates: Send + Sync + 'static {
     /// Limits of each number of a point.
     fn bounds(&self) -> &[Interval];
 
+    /// The point of the gait that is searched about, where there is one.
+    fn known(&self) -> Option<&[f64]> {
+        None
+    }
+
     /// The gait of a point.
     fn gait(&self, point: &[f64]) -> Result<Self::Gait, PointError>;
 
@@ -209,6 +214,10 @@ impl<'a, C: Candidates> Watched<'a, C> {
 impl<C: Candidates> Scorer for Watched<'_, C> {
     fn bounds(&self) -> &[Interval] {
         self.searched.bounds()
+    }
+
+    fn known(&self) -> Option<&[f64]> {
+        self.searched.candidates.known()
     }
 
     fn score(&self, batch: &[Query]) -> Vec<Answer> {

@@ -281,6 +281,10 @@ impl Candidates for CycleSearch {
         self.form.bounds()
     }
 
+    fn known(&self) -> Option<&[f64]> {
+        Some(self.form.known())
+    }
+
     fn gait(&self, point: &[f64]) -> Result<Cycle, PointError> {
         self.form.cycle(point)
     }

@@ -48,6 +48,8 @@ pub struct CycleForm {
     free: Free,
     variables: Vec<Variable>,
     bounds: Vec<Interval>,
+    /// The point of the middle; stops keep it off the middle of its bounds.
+    known: Vec<f64>,
 }
 
 /// What a number of a point is.
@@ -135,6 +137,7 @@ impl CycleForm {
             free,
             variables: Vec::new(),
             bounds: Vec::new(),
+            known: Vec::new(),
         };
         let middle = form.middle.clone();
         if let Some(pull) = &middle.pull {
@@ -158,6 +161,7 @@ impl CycleForm {
         for (variable, seconds) in times(&middle) {
             let name = variable.to_string();
             form.variables.push(variable);
+            form.known.push(seconds);
             let factor = TIME_REACH.powf(free.reach);
             let interval = Interval::new(seconds / factor, seconds * factor);
             form.bounds
@@ -231,7 +235,13 @@ impl CycleForm {
         })?;
         self.variables.push(variable);
         self.bounds.push(interval);
+        self.known.push(middle.clamp(low, high));
         Ok(())
+    }
+
+    /// The point of the middle.
+    pub fn known(&self) -> &[f64] {
+        &self.known
     }
 
     /// Limits of each number.
@@ -387,6 +397,7 @@ mod tests {
             let cycle = shipped::cycle(name).unwrap().unwrap();
             let form = CycleForm::about(robot, &cycle, Free::FULL).unwrap();
             let point = form.point(&form.middle);
+            assert_eq!(point, form.known());
             let again = form.cycle(&point).unwrap();
             let stops = robot.stops();
             let plan = |cycle: &Cycle| {
