@@ -50,7 +50,7 @@ fn a_robot_without_control_is_told_what_it_lacks() {
 
 #[test]
 fn a_length_in_the_place_of_a_share_is_pointed_at() {
-    let message = check(("lateral_rad_m = 3.5", "lateral_rad_m = 3500.0"), SAME);
+    let message = check(("lateral_rad_m = 2.0", "lateral_rad_m = 3500.0"), SAME);
     insta::assert_snapshot!(message);
 }
 

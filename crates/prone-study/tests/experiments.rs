@@ -309,7 +309,7 @@ fn identity_a_search_is_the_same_in_memory_and_stopped_and_resumed_in_a_folder()
         other => panic!("a search was asked for: {other:?}"),
     };
     let in_memory = text(run(&sent(&experiment), &Unwatched).unwrap());
-    let stopped = put(&out, Opening::Restart).run(&experiment, &After(AtomicUsize::new(5)));
+    let stopped = put(&out, Opening::Restart).run(&experiment, &After(AtomicUsize::new(200)));
     let Err(RunError::StoppedSearch { checkpoint }) = stopped else {
         panic!("it was to stop: {stopped:?}");
     };
