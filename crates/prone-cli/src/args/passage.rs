@@ -110,7 +110,7 @@ pub(crate) struct FrontierArgs {
     #[arg(long, value_name = "S", value_parser = super::optimize::seconds)]
     pub(crate) time_budget: Option<f64>,
     /// Cycles about which is searched, names or files: the one that fits and comes farthest, else
-    /// the lowest [default: those of the robot's [defaults], of the NAO low-175 and low-165]
+    /// the lowest [default: those of the robot's [defaults], of the NAO those called low-]
     #[arg(long, value_name = "GAIT")]
     pub(crate) from: Vec<String>,
     /// Search cycles that can be steered: at the largest turn command they turn 10° a cycle, and more

@@ -11,9 +11,9 @@
 //!
 //! What is not a number keeps no rule: it breaks it by [`UNTRIED`].
 //!
-//! A search and a confirmation ask for height, head, advance, heading and drift alike; what else a search
-//! holds, verdict, speed, duty, heat, duration, is of the setting as it is, which both have. Two
-//! differences are on purpose:
+//! A search and a confirmation ask for height, head, advance, heading and drift alike. A confirmation does
+//! not ask again for what a search holds where values count: verdict, speed, duty, heat and duration. Two
+//! more differences are on purpose:
 //!
 //! - In a search a cycle whose highest point is *at* the height breaks nothing, as violations are
 //!   continuous and that height is a margin below the ceiling. In a confirmation it does not hold,

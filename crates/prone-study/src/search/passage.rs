@@ -1,7 +1,8 @@
 //! Whether a robot gets under a ceiling, with which cycle, and what limits it.
 //!
 //! Every cycle is crawled under a plate of the ceiling's height, from before it until the robot has come
-//! out behind it, with its heading held where it can be steered, first as everything is in the model. Those that get through without touching anything,
+//! out behind it, with its heading held where it can be steered, first as everything is in the model.
+//! Those that get through without touching anything,
 //! and stay below the ceiling by the margin, go, the fastest first, through all of the
 //! [`corners`] under the same plate, where they have to get through too; a cycle stops at
 //! the first in which it does not. The answer is the first one that gets through all of them, and where

@@ -36,7 +36,7 @@
 //! ```
 //!
 //! A limb that slides goes aside at the least difference between left and right: 0.5° moves the NAO by a
-//! quarter of what 12° do, so that a heading hold with the angle itself as its command would sway for
+//! fifth to a half of what 12° do, so that a heading hold with the angle itself as its command would sway for
 //! ever. Over (2) the way aside is nearly in proportion to v.
 //!
 //! [`CheckedCycle::plan`] holds all of it against a robot: stops, limits that depend on another

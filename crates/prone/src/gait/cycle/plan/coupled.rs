@@ -8,11 +8,13 @@ use crate::robot::JointAngles;
 
 /// Time between two postures that are looked at, s.
 const COUPLED_STEP: f64 = 0.01;
+/// Over less, s, as rounding may leave it before a waypoint, a difference of angles is no speed.
+const SHORTEST_STEP: f64 = 1e-6;
 
 impl Planner<'_> {
     /// Holds a planned cycle against limits that depend on another joint: what lies beyond is an
-    /// error or noted, by the cycle's policy, and no joint follows its limit too fast. Postures of the way are kept within as they are made
-    /// ([`RecoveryPath::at`]).
+    /// error or noted, by the cycle's policy, and no joint follows its limit too fast. Postures of the
+    /// way are kept within as they are made ([`RecoveryPath::at`]).
     pub(super) fn check_coupled(
         &self,
         checked: &CheckedCycle,
@@ -32,9 +34,11 @@ impl Planner<'_> {
                 let posture = path.straight(time);
                 self.within_coupled(&place, &posture, time / seconds, clamps)?;
                 let next = (time + COUPLED_STEP).min(end);
-                let after = path.at(next);
-                self.slow_enough(&place, [&before, &after], next - time)?;
-                before = after;
+                if next - time > SHORTEST_STEP {
+                    let after = path.at(next);
+                    self.slow_enough(&place, [&before, &after], next - time)?;
+                    before = after;
+                }
                 time += COUPLED_STEP;
             }
             // Each waypoint is looked at, wherever the steps fall.
