@@ -46,6 +46,11 @@ pub(crate) fn check(args: &RobotCheckArgs) -> Result<(), Failure> {
     let compiled = compile::beside(&loaded);
     let checked = Checked {
         sheet: robot_sheet::of(loaded.robot()).map_err(Failure::input)?,
+        asymmetries: loaded
+            .asymmetries()
+            .iter()
+            .map(ToString::to_string)
+            .collect(),
         no_torque_study,
         compiled: compiled.as_ref().map(|compiled| Compiled {
             fresh: compiled.is_ok(),
@@ -58,6 +63,12 @@ pub(crate) fn check(args: &RobotCheckArgs) -> Result<(), Failure> {
         writeln!(out, "{text}")?;
     } else {
         print(&checked.sheet, folder, &mut out)?;
+        if !checked.asymmetries.is_empty() {
+            writeln!(out, "\nleft and right differ")?;
+        }
+        for asymmetry in &checked.asymmetries {
+            writeln!(out, "  {asymmetry}")?;
+        }
         if let Some(why) = &checked.no_torque_study {
             writeln!(out, "\nthe torque study does not run with it: {why}")?;
         }
@@ -92,6 +103,8 @@ fn refused(folder: &str, error: &CompiledRobotError) -> Failure {
 struct Checked {
     #[serde(flatten)]
     sheet: RobotSheet,
+    /// In what the sides differ, a sentence each.
+    asymmetries: Vec<String>,
     /// Why the regime of the torque study does not take it, where it does not.
     no_torque_study: Option<String>,
     compiled: Option<Compiled>,

@@ -13,6 +13,13 @@ use toml::Spanned;
 use crate::defaults::DefaultsTable;
 use crate::error::{FileError, Source};
 use crate::exactly::{Exactly, exactly};
+use crate::part_name;
+
+/// Longest name of a robot, bytes.
+pub(crate) const LONGEST_NAME: usize = 100;
+
+/// Most tables of a kind, and lines of one: more than any robot has.
+const MOST_TABLES: usize = 1_000;
 
 /// A value with its place in the file.
 pub type Placed<T> = Spanned<T>;
@@ -28,20 +35,20 @@ pub type Number = Placed<f64>;
 #[serde(deny_unknown_fields)]
 pub struct RobotFile {
     /// The manufacturer's name of the model.
-    pub name: String,
+    pub name: Name,
     /// The family that the robot is a version of.
     pub family: Option<Name>,
     /// The MJCF file beside this one.
     pub model: Name,
     /// How high the robot stands, mm.
-    pub standing_height_mm: Option<f64>,
+    pub standing_height_mm: Option<Number>,
     /// The crawling chain.
     pub chain: ChainTable,
     /// Bodies whose contacts are recorded together; every body of the model once.
     pub contacts: ContactTable,
     /// Motor types by name.
     #[serde(default)]
-    pub motors: BTreeMap<String, MotorTable>,
+    pub motors: BTreeMap<Name, MotorTable>,
     /// Joints with the same drive; every joint of the model once.
     pub drives: Vec<DriveTable>,
     /// Limits of joints that depend on the angle of another joint.
@@ -49,7 +56,7 @@ pub struct RobotFile {
     pub coupled_limits: Vec<CoupledLimitTable>,
     /// Joint angles by posture and joint, rad; unlisted joints are at zero.
     #[serde(default)]
-    pub postures: BTreeMap<String, BTreeMap<Name, f64>>,
+    pub postures: BTreeMap<Name, BTreeMap<Name, f64>>,
     /// The torque study.
     pub study: StudyTable,
     /// The inertial measurement unit.
@@ -160,11 +167,11 @@ pub struct ContactTable {
 #[serde(deny_unknown_fields)]
 pub struct MotorTable {
     /// Continuous torque at the motor shaft, mN·m.
-    pub nominal_mnm: f64,
+    pub nominal_mnm: Number,
     /// Stall torque at the motor shaft, mN·m.
-    pub stall_mnm: f64,
+    pub stall_mnm: Number,
     /// Speed of the motor shaft without load, turns per minute.
-    pub no_load_rpm: Option<f64>,
+    pub no_load_rpm: Option<Number>,
 }
 
 /// `[[drives]]`
@@ -174,18 +181,18 @@ pub struct DriveTable {
     /// The joints that have this drive.
     pub joints: Vec<Name>,
     /// Effort limit, N·m.
-    pub effort_nm: f64,
+    pub effort_nm: Number,
     /// Speed limit, rad/s.
-    pub speed_rad_s: f64,
+    pub speed_rad_s: Number,
     /// Torque that the servo asks for per position error, N·m/rad.
-    pub servo_stiffness_nm_rad: f64,
+    pub servo_stiffness_nm_rad: Number,
     /// Whether one motor turns all joints of this drive together; the model ties them by equalities.
     #[serde(default)]
     pub one_motor: bool,
     /// Motor type, a key of `[motors]`.
     pub motor: Option<Name>,
     /// Gear ratio; needed where a motor is named.
-    pub ratio: Option<f64>,
+    pub ratio: Option<Number>,
 }
 
 /// `[[coupled_limits]]`
@@ -301,8 +308,41 @@ impl RobotFile {
             );
             FileError { message, ..error }
         })?;
+        robot.check_names(source)?;
         robot.defaults.check(source)?;
         Ok(robot)
+    }
+
+    /// The names that it gives: to the robot, to motors and to postures.
+    fn check_names(&self, source: Source<'_>) -> Result<(), FileError> {
+        let bytes = self.name.get_ref().len();
+        if !(1..=LONGEST_NAME).contains(&bytes) {
+            let message = format!("the name of a robot has 1 to {LONGEST_NAME} bytes, not {bytes}");
+            return Err(source.error(self.name.span(), message));
+        }
+        let motors = self.motors.keys().map(|name| ("motor", name));
+        let postures = self.postures.keys().map(|name| ("posture", name));
+        for (kind, name) in motors.chain(postures) {
+            part_name::check(kind, name.get_ref())
+                .map_err(|error| source.error(name.span(), error))?;
+        }
+        let lines = self
+            .coupled_limits
+            .iter()
+            .map(|limit| limit.table_deg.len());
+        let counts = [
+            ("[[drives]]", self.drives.len(), MOST_TABLES),
+            ("[[coupled_limits]]", self.coupled_limits.len(), MOST_TABLES),
+            ("table_deg", lines.max().unwrap_or(0), MOST_TABLES),
+            ("postures", self.postures.len(), MOST_TABLES),
+        ];
+        match counts.into_iter().find(|(_, count, most)| count > most) {
+            None => Ok(()),
+            Some((what, count, most)) => {
+                let message = format!("{count} {what} are more than {most}");
+                Err(source.error(self.name.span(), message))
+            }
+        }
     }
 
     /// An error at a name of this file; `file` and `text` as given to [`RobotFile::parse`].

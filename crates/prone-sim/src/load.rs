@@ -11,8 +11,8 @@ mod foreign;
 mod imu;
 mod limbs;
 mod lookup;
-mod markup;
 mod model;
+mod physics;
 mod tables;
 
 pub use prone_files::robot_folder::RobotFiles;
@@ -21,8 +21,10 @@ use std::sync::Arc;
 
 use mujoco_rs::prelude::*;
 
-use prone::robot::Robot;
+use prone::robot::symmetry::Asymmetry;
+use prone::robot::{Robot, plausible};
 use prone_files::FileError;
+use prone_files::model_file::ModelFile;
 use prone_files::robot_file::RobotFile;
 use prone_files::robot_folder;
 
@@ -33,6 +35,8 @@ use crate::engine_log::{self, one_line};
 pub struct LoadedRobot {
     robot: Arc<Robot>,
     files: RobotFiles,
+    model: Arc<ModelFile>,
+    asymmetries: Vec<Asymmetry>,
 }
 
 /// Why a robot cannot be loaded.
@@ -63,26 +67,42 @@ impl LoadedRobot {
         let table = RobotFile::parse(&toml_name, &files.toml)?;
         robot_folder::check_model_name(&toml_name, &files.toml, &table.model)?;
         let mjcf_name = format!("{}/{}", files.folder, table.model.get_ref());
-        markup::check(&mjcf_name, &files.mjcf)?;
+        let model = ModelFile::parse(&mjcf_name, &files.mjcf)?;
 
         let refused = |message| LoadError::Model {
             file: mjcf_name.clone(),
             message,
         };
-        let model = MjSpec::from_xml_string(&files.mjcf)
+        let compiled = spec(&model)
             .and_then(|mut spec| spec.compile())
             .map_err(|error| refused(one_line(&error.to_string())))?;
-        let parts = model::read(&model).map_err(refused)?;
-        let robot = lookup::Lookup {
+        let parts = model::read(&compiled, &model)?;
+        let lookup = lookup::Lookup {
             file: &toml_name,
             text: &files.toml,
             mjcf: &mjcf_name,
-        }
-        .assemble(table, parts)?;
+        };
+        let places = physics::Places::of(&table);
+        let robot = lookup.assemble(table, parts)?;
+        let asymmetries = plausible::check(&robot)
+            .map_err(|error| places.error(&lookup, &model, &robot, &error))?;
+        physics::check_engine(&compiled, &model, &robot)?;
         Ok(Self {
             robot: Arc::new(robot),
             files,
+            model: Arc::new(model),
+            asymmetries,
         })
+    }
+
+    /// In what its sides differ, as those of real models do.
+    pub fn asymmetries(&self) -> &[Asymmetry] {
+        &self.asymmetries
+    }
+
+    /// The model, checked, for the engine.
+    pub(crate) fn model(&self) -> &ModelFile {
+        &self.model
     }
 
     /// The robot.
@@ -94,6 +114,12 @@ impl LoadedRobot {
     pub const fn files(&self) -> &RobotFiles {
         &self.files
     }
+}
+
+/// What the engine makes worlds of. It is given nothing else: of a model, what was checked.
+pub(crate) fn spec(model: &ModelFile) -> Result<MjSpec, MjEditError> {
+    engine_log::silence();
+    MjSpec::from_xml_string(model.text())
 }
 
 /// How a refusal calls something of the model: by its name, or by its number where it has none.

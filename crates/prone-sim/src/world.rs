@@ -226,9 +226,8 @@ fn compile(
     drives: &[WorldDrive],
     scenery: &Scenery,
 ) -> Result<MjModel, MjEditError> {
-    engine_log::silence();
     let robot = loaded.robot();
-    let mut spec = MjSpec::from_xml_string(&loaded.files().mjcf)?;
+    let mut spec = crate::load::spec(loaded.model())?;
     let floor = &scenery.scene.floor;
     *spec.option_mut() = options(regime, floor.slope);
     let [torsional, rolling] = UNUSED_FRICTION;

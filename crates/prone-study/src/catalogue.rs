@@ -272,7 +272,11 @@ fn gaits(gaits: &Gaits, kind: GaitKind) -> Result<Vec<Listed>, ReadError> {
 /// A robot, described by the name that its `robot.toml` has.
 fn robot_of(name: &str, files: &RobotFiles) -> Result<Listed, FileError> {
     let table = RobotFile::parse(&files.toml_name(), &files.toml)?;
-    Ok(Listed::new(ListedKind::Robot, name, table.name))
+    Ok(Listed::new(
+        ListedKind::Robot,
+        name,
+        table.name.into_inner(),
+    ))
 }
 
 #[cfg(test)]

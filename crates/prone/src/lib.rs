@@ -23,6 +23,7 @@ pub mod attitude;
 pub mod chain;
 pub mod cost;
 pub mod crawl;
+pub mod foreign_text;
 pub mod frames;
 pub mod gait;
 pub mod mapping;

@@ -205,7 +205,7 @@ impl JointDocument {
             body: names.body(at.key("body"), &self.body)?,
             axis: at.key("axis").direction(self.axis)?,
             anchor: at.key("anchor_m").point(self.anchor_m)?,
-            range: range.range(self.range_rad, bounds::NUMBER)?,
+            range: range.range(self.range_rad, bounds::STOP)?,
             effort_limit: positive("effort_limit_nm", self.effort_limit_nm, bounds::EFFORT)?,
             speed_limit: positive("speed_limit_rad_s", self.speed_limit_rad_s, bounds::SPEED)?,
             servo_stiffness: positive(

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use prone::robot::{BodyId, JointId, Robot};
 
 use super::place::{Place, Violation};
+use crate::part_name::{self, PartNameError};
 
 /// The place of each of some distinct names in their list.
 pub(super) type Index<'a> = BTreeMap<&'a str, usize>;
@@ -47,6 +48,27 @@ pub(super) fn index<'a, D>(
         }
     }
     Ok(names)
+}
+
+/// Checks names of parts: each by itself, and that no two are alike.
+pub(super) fn check_parts(
+    at: Place<'_>,
+    kind: &'static str,
+    names: &Index<'_>,
+    check: fn(&str) -> Result<(), PartNameError>,
+) -> Result<(), Violation> {
+    let named = |index, error: PartNameError| {
+        let element = Place::Element(&at, index);
+        element.key("name").violation(error)
+    };
+    let mut ordered: Vec<(usize, &str)> =
+        names.iter().map(|(name, index)| (*index, *name)).collect();
+    ordered.sort_unstable();
+    for (index, name) in &ordered {
+        check(name).map_err(|error| named(*index, error))?;
+    }
+    let all = ordered.iter().map(|(_, name)| *name);
+    part_name::check_distinct(kind, all).map_err(|(place, error)| named(ordered[place].0, error))
 }
 
 /// Name of a body of a robot.

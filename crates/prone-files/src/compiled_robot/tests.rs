@@ -1,7 +1,7 @@
 use proptest::prelude::*;
 use serde_json::{Value, json};
 
-use prone::robot::{ContactGroup, Motor, Range};
+use prone::robot::{ContactGroup, Motor};
 
 use super::*;
 use crate::shipped;
@@ -116,7 +116,7 @@ fn robots() -> impl Strategy<Value = Robot> {
         enlarge(&mut robot, scale);
         robot.name = format!("\"{}\" \u{1F916}\n", number());
         for body in &mut robot.bodies {
-            body.mass = number();
+            body.mass *= 0.9 + 0.1 * number();
             body.contact_group = if flags[0] {
                 ContactGroup::Head
             } else {
@@ -143,18 +143,18 @@ fn robots() -> impl Strategy<Value = Robot> {
         }
         robot.search.upper_arm.upper = number();
         for joint in &mut robot.joints {
-            joint.range = Range {
-                lower: -number(),
-                upper: number(),
-            };
-            joint.effort_limit = number();
-            joint.speed_limit = number();
-            joint.servo_stiffness = number();
+            joint.range.lower -= 0.05 * number();
+            joint.range.upper += 0.05 * number();
+            let stronger = 0.9 + 0.1 * number();
+            joint.effort_limit *= stronger;
+            joint.speed_limit *= 0.9 + 0.1 * number();
+            joint.servo_stiffness *= stronger;
+            let (speed, stall) = (joint.speed_limit, joint.effort_limit * (1.0 + number()));
             joint.motor = flags[1].then(|| Motor {
                 ratio: number() * 100.0,
-                nominal: number(),
-                stall: number(),
-                no_load_speed: flags[2].then(|| 1.0 + number()),
+                nominal: stall * number(),
+                stall,
+                no_load_speed: flags[2].then(|| speed * (1.0 + number())),
             });
         }
         for angles in robot.postures.values_mut() {
@@ -179,6 +179,17 @@ fn robots() -> impl Strategy<Value = Robot> {
 
 /// The same robot of another size: its chain closes as before.
 fn enlarge(robot: &mut Robot, scale: f64) {
+    robot.lying_length *= scale;
+    robot.standing_height = robot.standing_height.map(|height| height * scale);
+    for body in &mut robot.bodies {
+        body.mass *= scale.powi(3);
+    }
+    for joint in &mut robot.joints {
+        // Weight times length.
+        joint.effort_limit *= scale.powi(4);
+        joint.servo_stiffness *= scale.powi(4);
+        joint.motor = None;
+    }
     let mut document = RobotDocument::from_robot(robot);
     let grow = |metres: &mut [f64; 3]| *metres = metres.map(|metres| metres * scale);
     for body in &mut document.bodies {
@@ -191,11 +202,11 @@ fn enlarge(robot: &mut Robot, scale: f64) {
     for shape in &mut document.shapes {
         grow(&mut shape.link_from_geom.position_m);
     }
-    let chain = &mut document.chain;
-    for side in [&mut chain.left, &mut chain.right] {
+    for side in [&mut document.chain.left, &mut document.chain.right] {
         grow(&mut side.toe.position_m);
         grow(&mut side.elbow.position_m);
     }
+    let chain = &mut document.chain;
     chain.span_m *= scale;
     chain.projected_upper_arm_m *= scale;
     *robot = document.robot("robot").unwrap();
@@ -408,15 +419,15 @@ fn limit_lists_are_bounded() {
         refusal(&changed(list, json!(vec![first; most + 1])))
     };
     let refusals = [
-        longer("/robot/bodies", 10_000),
-        longer("/robot/joints", 10_000),
-        longer("/robot/shapes", 10_000),
+        longer("/robot/bodies", 250),
+        longer("/robot/joints", 250),
+        longer("/robot/shapes", 2_000),
         longer("/robot/postures", 1_000),
     ];
     insta::assert_snapshot!(refusals.join("\n"), @r"
-    nao.json: robot.bodies: 10001 are more than 10000
-    nao.json: robot.joints: 10001 are more than 10000
-    nao.json: robot.shapes: 10001 are more than 10000
+    nao.json: robot.bodies: 251 are more than 250
+    nao.json: robot.joints: 251 are more than 250
+    nao.json: robot.shapes: 2001 are more than 2000
     nao.json: robot.postures: 1001 are more than 1000
     ");
 }

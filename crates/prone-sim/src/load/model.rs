@@ -7,8 +7,9 @@ use mujoco_rs::prelude::*;
 
 use prone::frames::{Link, Point, Transform};
 use prone::robot::{Body, BodyId, ContactGroup, Joint, JointId, Range, Shape, Solid};
+use prone_files::model_file::ModelFile;
 
-use super::{bounds, foreign, label};
+use super::{LoadError, bounds, foreign, label};
 use crate::engine_numbers::{WORLD_BODY, collides, robot_body, rotation};
 
 /// What the model says; drives and contact groups are still to be filled in.
@@ -29,9 +30,19 @@ pub(super) struct Site {
     pub(super) gyroscope: bool,
 }
 
-/// Reads a compiled model; a refusal is a message. The engine's body 0 is the world and its joint 0
-/// the free one: ours start after them.
-pub(super) fn read(model: &MjModel) -> Result<Parts, String> {
+/// Reads a compiled model. The engine's body 0 is the world and its joint 0 the free one: ours start
+/// after them.
+pub(super) fn read(model: &MjModel, file: &ModelFile) -> Result<Parts, LoadError> {
+    let refused = |message| LoadError::Model {
+        file: file.file().to_owned(),
+        message,
+    };
+    let parts = parts(model).map_err(refused)?;
+    bounds::check(model, file)?;
+    Ok(parts)
+}
+
+fn parts(model: &MjModel) -> Result<Parts, String> {
     check_root(model)?;
     let mut joints = Vec::new();
     let mut bodies = Vec::new();
@@ -40,7 +51,6 @@ pub(super) fn read(model: &MjModel) -> Result<Parts, String> {
         bodies.push(read_body(model, index, joint)?);
     }
     foreign::check(model)?;
-    bounds::check(model)?;
     Ok(Parts {
         bodies,
         joints,

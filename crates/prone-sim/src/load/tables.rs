@@ -15,7 +15,7 @@ use prone::robot::{
 use prone_files::FileError;
 use prone_files::names::{NameKind, UnknownName};
 use prone_files::robot_file::{
-    ChainTable, ContactTable, DriveTable, FixedArmTable, MotorTable, Name, PublishedTable,
+    ChainTable, ContactTable, DriveTable, FixedArmTable, MotorTable, Name, Number, PublishedTable,
     RobotFile, SideTable, StudyTable,
 };
 
@@ -34,11 +34,12 @@ impl Lookup<'_> {
         let imu = imu.map(|imu| imu::read(self, imu, &parts)).transpose()?;
         let standing_height = table
             .standing_height_mm
-            .map(|mm| self.length(&table.model, "standing_height_mm", mm))
+            .as_ref()
+            .map(|mm| self.length(mm, "standing_height_mm", *mm.get_ref()))
             .transpose()?;
         let lying_length_mm = &table.pictures.lying_length_mm;
         let robot = Robot {
-            name: table.name,
+            name: table.name.into_inner(),
             standing_height,
             chain,
             study,
@@ -112,7 +113,7 @@ impl Lookup<'_> {
     fn equip_joints(
         &self,
         drives: &[DriveTable],
-        motors: &BTreeMap<String, MotorTable>,
+        motors: &BTreeMap<Name, MotorTable>,
         parts: &mut Parts,
     ) -> Result<Vec<Vec<JointId>>, FileError> {
         let mut seen = vec![false; parts.joints.len()];
@@ -128,16 +129,18 @@ impl Lookup<'_> {
                     return Err(self.error(name, again));
                 }
                 let joint = &mut parts.joints[id.0];
-                let number = |what, value, largest| self.positive(name, what, value, largest);
-                joint.effort_limit = number("effort_nm", drive.effort_nm, bounds::EFFORT)?;
-                joint.speed_limit = number("speed_rad_s", drive.speed_rad_s, bounds::SPEED)?;
+                let number = |what, value: &Number, largest| {
+                    self.positive(value, what, *value.get_ref(), largest)
+                };
+                joint.effort_limit = number("effort_nm", &drive.effort_nm, bounds::EFFORT)?;
+                joint.speed_limit = number("speed_rad_s", &drive.speed_rad_s, bounds::SPEED)?;
                 joint.servo_stiffness = number(
                     "servo_stiffness_nm_rad",
-                    drive.servo_stiffness_nm_rad,
+                    &drive.servo_stiffness_nm_rad,
                     bounds::STIFFNESS,
                 )?;
                 joint.motor = self.motor(drive, motors)?;
-                check_speed(joint).map_err(|too_fast| self.error(name, too_fast))?;
+                check_speed(joint).map_err(|too_fast| self.error(&drive.speed_rad_s, too_fast))?;
             }
         }
         match seen.iter().position(|seen| !seen) {
@@ -183,32 +186,35 @@ impl Lookup<'_> {
     fn motor(
         &self,
         drive: &DriveTable,
-        motors: &BTreeMap<String, MotorTable>,
+        motors: &BTreeMap<Name, MotorTable>,
     ) -> Result<Option<Motor>, FileError> {
         let Some(name) = &drive.motor else {
             return Ok(None);
         };
-        let Some(motor) = motors.get(name.get_ref()) else {
-            let unknown = UnknownName::new(NameKind::Motor, name.get_ref(), motors.keys());
+        let mut named = motors.iter();
+        let Some((_, motor)) = named.find(|(motor, _)| motor.get_ref() == name.get_ref()) else {
+            let known = motors.keys().map(|motor| motor.get_ref().as_str());
+            let unknown = UnknownName::new(NameKind::Motor, name.get_ref(), known);
             return Err(self.error(name, unknown.within("[motors]")));
         };
-        let Some(ratio) = drive.ratio else {
+        let Some(ratio) = &drive.ratio else {
             return Err(self.error(name, "a drive with a motor needs its ratio"));
         };
-        let ratio = self.positive(name, "ratio", ratio, bounds::RATIO)?;
-        let at_joint = |what, millis: f64| {
-            let shaft = self.positive(name, what, millis, bounds::SHAFT_TORQUE * 1e3)?;
+        let ratio = self.positive(ratio, "ratio", *ratio.get_ref(), bounds::RATIO)?;
+        let at_joint = |what, millis: &Number| {
+            let largest = bounds::SHAFT_TORQUE * 1e3;
+            let shaft = self.positive(millis, what, *millis.get_ref(), largest)?;
             Ok::<_, FileError>(shaft * 1e-3 * ratio)
         };
-        let no_load_speed = |rpm| {
-            let rpm = self.positive(name, "no_load_rpm", rpm, bounds::SHAFT_SPEED)?;
+        let no_load_speed = |rpm: &Number| {
+            let rpm = self.positive(rpm, "no_load_rpm", *rpm.get_ref(), bounds::SHAFT_SPEED)?;
             Ok::<_, FileError>(rpm * TAU / 60.0 / ratio)
         };
         Ok(Some(Motor {
             ratio,
-            nominal: at_joint("nominal_mnm", motor.nominal_mnm)?,
-            stall: at_joint("stall_mnm", motor.stall_mnm)?,
-            no_load_speed: motor.no_load_rpm.map(no_load_speed).transpose()?,
+            nominal: at_joint("nominal_mnm", &motor.nominal_mnm)?,
+            stall: at_joint("stall_mnm", &motor.stall_mnm)?,
+            no_load_speed: motor.no_load_rpm.as_ref().map(no_load_speed).transpose()?,
         }))
     }
 
@@ -285,12 +291,13 @@ impl Lookup<'_> {
     fn study(
         &self,
         table: &StudyTable,
-        postures: &BTreeMap<String, BTreeMap<Name, f64>>,
+        postures: &BTreeMap<Name, BTreeMap<Name, f64>>,
         parts: &Parts,
     ) -> Result<StudySetup, FileError> {
         let start = &table.start_posture;
-        if !postures.contains_key(start.get_ref()) {
-            let unknown = UnknownName::new(NameKind::Posture, start.get_ref(), postures.keys());
+        let known = || postures.keys().map(|name| name.get_ref().as_str());
+        if !known().any(|name| name == start.get_ref()) {
+            let unknown = UnknownName::new(NameKind::Posture, start.get_ref(), known());
             return Err(self.error(start, unknown.within("[postures]")));
         }
         let mut stops = Vec::new();
@@ -306,7 +313,7 @@ impl Lookup<'_> {
 
     fn postures(
         &self,
-        table: &BTreeMap<String, BTreeMap<Name, f64>>,
+        table: &BTreeMap<Name, BTreeMap<Name, f64>>,
         model_joints: &[Joint],
     ) -> Result<BTreeMap<String, JointAngles>, FileError> {
         let mut postures = BTreeMap::new();
@@ -321,7 +328,7 @@ impl Lookup<'_> {
                 }
                 angles[id] = angle;
             }
-            postures.insert(posture.clone(), angles);
+            postures.insert(posture.get_ref().clone(), angles);
         }
         Ok(postures)
     }

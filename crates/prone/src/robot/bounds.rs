@@ -36,5 +36,15 @@ pub const SHAFT_TORQUE: f64 = 1e3;
 pub const SHAFT_SPEED: f64 = 1e6;
 /// How far the length of a unit vector or quaternion may be from one: what six digits leave over.
 pub const UNIT: f64 = 1e-6;
-/// Largest number in a model's text, whatever its unit, and so the largest stop of a joint.
+/// Largest number in a model's text, whatever its unit.
 pub const NUMBER: f64 = 1e9;
+/// Farthest stop of a joint, rad: two turns, more than any cable takes.
+pub const STOP: f64 = 2.0 * std::f64::consts::TAU;
+/// Least and largest mass of a robot, kg: from a toy's to a small car's.
+pub const TOTAL_MASS: (f64, f64) = (0.05, 500.0);
+/// Largest density, kg/m³: that of osmium.
+pub const DENSITY: f64 = 23_000.0;
+/// Largest inertia of a rotor behind its gear, kg·m².
+pub const ARMATURE: f64 = 100.0;
+/// Largest damping of a joint, N·m·s/rad: at its largest effort it moves by 1 rad/s.
+pub const DAMPING: f64 = EFFORT;
