@@ -1,16 +1,16 @@
 //! The head of a result: the first keys of every `run.json`, and the only check of who wrote it.
 
-use std::fs;
 use std::io;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use prone_files::text_file::ReadError;
+use prone_files::text_file::{self, ReadError};
 
 use crate::output::RUN_FILE;
 use crate::program::Program;
+use crate::unique_json;
 
 /// What the key `program` says.
 pub const PROGRAM: &str = "prone";
@@ -107,15 +107,15 @@ impl Head {
             return Err(not("it is not a folder"));
         }
         let path = folder.join(RUN_FILE);
-        let text = match fs::read(&path) {
-            Ok(bytes) => String::from_utf8_lossy(&bytes).into_owned(),
+        let bytes = match text_file::read_within(folder, RUN_FILE, text_file::LARGEST_BYTES) {
+            Ok(bytes) => bytes,
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
                 return Err(not(&format!("it holds no {RUN_FILE}")));
             }
             Err(source) => return Err(ReadError { path, source }.into()),
         };
         let file = path.display().to_string();
-        let run: Value = match serde_json::from_str(&text) {
+        let run: Value = match unique_json::parse(&bytes) {
             Ok(run) => run,
             Err(source) => return Err(HeadError::Json { file, source }),
         };
@@ -149,6 +149,8 @@ impl Head {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     #[test]

@@ -33,3 +33,4 @@ pub mod search_result;
 pub mod single_file;
 pub mod statistics;
 pub mod tables;
+pub mod unique_json;

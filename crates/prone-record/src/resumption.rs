@@ -24,15 +24,15 @@ mod journal;
 mod snapshot;
 
 use std::ffi::OsString;
-use std::fs::{self, File};
-use std::io::{self, Read as _};
+use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 
 use serde::de::{DeserializeOwned, IgnoredAny};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use prone_files::text_file::sha256;
+use prone_files::text_file::{self, sha256};
 
 use crate::lock::{Lock, LockError};
 use crate::single_file::WriteError;
@@ -56,7 +56,7 @@ const OLD_CHECKPOINT: &[u8] = b"{\"plan\":{";
 const CHECKSUM: usize = 16;
 
 /// The largest file that is read; the longest searches keep some ten megabytes.
-const LARGEST_BYTES: u64 = 1 << 30;
+const LARGEST_BYTES: u64 = 256 << 20;
 
 /// Kinds of work that can be taken up again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -269,13 +269,8 @@ impl Place {
             Ok(found) if !found.is_file() => return Err(foreign()),
             Ok(_) => {}
         }
-        let mut bytes = Vec::new();
-        File::open(&self.path)
-            .and_then(|file| file.take(LARGEST_BYTES + 1).read_to_end(&mut bytes))
-            .map_err(|error| self.unread(error))?;
-        if bytes.len() as u64 > LARGEST_BYTES {
-            return Err(self.unread(io::Error::other("it is larger than 1 GiB")));
-        }
+        let bytes =
+            text_file::read_bytes(&self.path, LARGEST_BYTES).map_err(|error| self.unread(error))?;
         if let Some(format) = old_format(&bytes) {
             return Ok(Standing::Other(format));
         }

@@ -22,6 +22,7 @@ mod rivals;
 mod run;
 mod run_sections;
 mod shown;
+mod svg_file;
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -263,6 +264,15 @@ impl Reading<'_> {
     /// Reads a folder and, of a publication's own result, the records within it that the user did not
     /// name.
     fn read(&self, folder: Folder) -> Result<Vec<Run>, ReportError> {
+        let absent = folder.absent();
+        let mut runs = self.read_whole(folder)?;
+        if let Some(run) = runs.first_mut() {
+            run.shortfalls.extend(absent);
+        }
+        Ok(runs)
+    }
+
+    fn read_whole(&self, folder: Folder) -> Result<Vec<Run>, ReportError> {
         if let Some(published) = self.publication.read(&folder) {
             let mut runs = vec![published?];
             for inner in folder.records() {

@@ -26,11 +26,18 @@ pub(super) fn files(args: &ExportArgs, run: &RecordInfo) -> Result<RobotFiles, F
         Some(name) => RobotFiles::named(name).map_err(Failure::input)?,
         None => match shipped.find(|robot| robot.hash() == recorded.sha256) {
             Some(robot) => robot,
-            None => RobotFiles::read(Path::new(&recorded.folder)).map_err(|error| {
-                Failure::Input(anyhow!(
-                    "{error}; --robot says where the robot of this run is"
-                ))
-            })?,
+            // What a record names may be anybody's folder: nothing is said of what is in it, and nothing is
+            // done with it but to compare its hash, unless it is the robot of the record.
+            None => RobotFiles::read(Path::new(&recorded.folder))
+                .ok()
+                .filter(|files| files.hash() == recorded.sha256)
+                .ok_or_else(|| {
+                    Failure::Input(anyhow!(
+                        "the robot of this run ({}) is not in {}, or was changed since; --robot says where it is",
+                        recorded.name,
+                        recorded.folder
+                    ))
+                })?,
         },
     };
     if files.hash() != recorded.sha256 {

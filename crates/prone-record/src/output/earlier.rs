@@ -11,6 +11,8 @@ use std::path::Path;
 
 use serde::Deserialize;
 
+use prone_files::text_file;
+
 use super::{Artefacts, OutputError, RUN_FILE, write_error};
 
 /// The largest `run.json` that is read; ours have a few kilobytes.
@@ -68,8 +70,7 @@ pub(super) fn lists_files_in(result: &Path, folder: &Path) -> bool {
         return false;
     };
     let run_file = result.join(RUN_FILE);
-    let small = fs::metadata(&run_file).is_ok_and(|found| found.len() <= LARGEST_RUN_FILE);
-    let record = small.then(|| fs::read(run_file)).and_then(Result::ok);
+    let record = text_file::read_bytes(&run_file, LARGEST_RUN_FILE).ok();
     let record = record.and_then(|bytes| serde_json::from_slice::<Record>(&bytes).ok());
     record.is_some_and(|record| {
         let mut files = record.artefacts.iter().map(Path::new);
@@ -87,7 +88,7 @@ fn stranger(folder: &Path) -> io::Result<Option<String>> {
         Ok(found) if found.is_file() && found.len() <= LARGEST_RUN_FILE => {}
         _ => return Ok(Some(format!("it holds no {RUN_FILE}"))),
     }
-    match serde_json::from_slice::<Record>(&fs::read(run_file)?) {
+    match serde_json::from_slice::<Record>(&text_file::read_bytes(&run_file, LARGEST_RUN_FILE)?) {
         Ok(record) if record.program == "prone" => unlisted(folder, "", &record.artefacts),
         _ => Ok(Some(format!(
             "its {RUN_FILE} does not list what prone wrote"

@@ -1,6 +1,5 @@
 //! Why a folder cannot be read as a record.
 
-use std::fs;
 use std::path::Path;
 
 use prone_files::compiled_robot::CompiledRobotError;
@@ -73,7 +72,7 @@ pub enum ReadError {
 /// A file's text; what is cut within a letter is cut in its line too.
 pub(super) fn text(folder: &Path, file: &'static str) -> Result<String, ReadError> {
     let path = folder.join(file);
-    match fs::read(&path) {
+    match text_file::read_within(folder, file, text_file::LARGEST_TABLE_BYTES) {
         Ok(bytes) => Ok(String::from_utf8_lossy(&bytes).into_owned()),
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => Err(ReadError::NotARecord {
             folder: folder.display().to_string(),

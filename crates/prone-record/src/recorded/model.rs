@@ -8,6 +8,8 @@ use serde_json::Value;
 
 use prone::frames::{Link, Point, Transform};
 
+use crate::unique_json;
+
 use super::error::text;
 use super::{ROWS_FILE, ReadError};
 
@@ -133,7 +135,7 @@ impl Model {
         let json = |error: serde_json::Error| wrong(&file, error.to_string());
         let content = text(folder, MODEL_FILE)?;
         let parts: Parts = serde_json::from_str(&content).map_err(json)?;
-        let text = serde_json::from_str(&content).map_err(json)?;
+        let text = unique_json::parse(content.as_bytes()).map_err(json)?;
         Ok(Self { text, file, parts })
     }
 

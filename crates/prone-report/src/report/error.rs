@@ -53,8 +53,8 @@ pub enum ReportError {
         /// Its name.
         column: String,
     },
-    /// A picture cannot be decoded.
-    #[error("{} is not a picture: {reason}", file.display())]
+    /// A picture or a drawing cannot be read, or is too large, or may do more than be seen.
+    #[error("{} is not a picture of ours: {reason}", file.display())]
     Picture {
         /// The file.
         file: PathBuf,

@@ -7,9 +7,12 @@ use std::path::{Path, PathBuf};
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
+use prone::foreign_text;
+
 use super::ReportError;
 use super::cut_table::CutTable;
 use crate::figures::FigureError;
+use prone_files::text_file;
 use prone_record::figure_entry::{FIGURES_FILE, FigureEntry};
 use prone_record::head::Head;
 use prone_record::output::RUN_FILE;
@@ -98,13 +101,34 @@ impl Folder {
     /// A file as it is.
     pub fn bytes(&self, file: &str) -> Result<Vec<u8>, ReportError> {
         let path = self.path.join(file);
-        fs::read(&path).map_err(|source| match source.kind() {
+        let read = text_file::read_within(&self.path, file, text_file::LARGEST_TABLE_BYTES);
+        read.map_err(|source| match source.kind() {
             ErrorKind::NotFound => ReportError::Missing {
                 folder: self.path.clone(),
                 file: file.to_owned(),
             },
             _ => ReportError::Read { file: path, source },
         })
+    }
+
+    /// What `run.json` lists and the folder does not hold, as a sentence.
+    pub(super) fn absent(&self) -> Option<String> {
+        let listed = self.run.get("artefacts").and_then(Value::as_array);
+        let listed = listed.into_iter().flatten().filter_map(Value::as_str);
+        let absent: Vec<&str> = listed
+            .filter(|file| !self.path.join(file).is_file())
+            .collect();
+        let (first, more) = (absent.first()?, absent.len() - 1);
+        let more = match more {
+            0 => String::new(),
+            1 => " and 1 file more".to_owned(),
+            more => format!(" and {more} files more"),
+        };
+        let first = foreign_text::cut(first);
+        Some(format!(
+            "{}: {first}{more} that its {RUN_FILE} lists are not there",
+            self.name
+        ))
     }
 
     /// The drawings and pictures that the command made.

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::folder::Folder;
-use super::{ReportError, Run, picture};
+use super::{ReportError, Run, picture, svg_file};
 use crate::figures::{self, Figure};
 
 /// One figure of a report.
@@ -104,11 +104,16 @@ fn add(found: &mut Vec<Shown>, run: &mut Run) -> Result<(), ReportError> {
         if drawn.contains(stem) {
             continue;
         }
-        let png = folder.bytes(&format!("{}.png", entry.file))?;
+        let (png, svg) = (format!("{}.png", entry.file), format!("{}.svg", entry.file));
+        let (png, drawing) = (folder.bytes(&png)?, folder.bytes(&svg)?);
+        svg_file::check(&drawing).map_err(|reason| ReportError::Picture {
+            file: folder.path.join(svg),
+            reason,
+        })?;
         found.push(Shown {
             stem: stem.to_owned(),
             image: Image::Recorded {
-                svg: folder.bytes(&format!("{}.svg", entry.file))?,
+                svg: drawing,
                 small: entry.picture.then(Vec::new),
                 png,
             },

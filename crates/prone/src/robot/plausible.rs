@@ -345,7 +345,7 @@ fn check_centres(robot: &Robot, length: f64) -> Result<(), Implausible> {
 mod tests {
     use super::*;
     use crate::frames::Point;
-    use crate::robot::testing;
+    use crate::robot::{Motor, testing};
 
     fn refusal(change: impl FnOnce(&mut Robot)) -> String {
         let mut robot = testing::two_armed();
@@ -405,10 +405,12 @@ mod tests {
     #[test]
     fn a_motor_gives_more_at_stall_than_for_ever() {
         let message = refusal(|robot| {
-            let joint = robot.joints.iter_mut().find(|joint| joint.motor.is_some());
-            if let Some(motor) = joint.and_then(|joint| joint.motor.as_mut()) {
-                motor.nominal = 1.5 * motor.stall;
-            }
+            robot.joints[0].motor = Some(Motor {
+                ratio: 100.0,
+                nominal: 6.0,
+                stall: 4.0,
+                no_load_speed: None,
+            });
         });
         assert!(message.contains("continuous torque"), "{message}");
     }
