@@ -106,7 +106,9 @@ fn a_file_goes_over_a_compiled_robot_and_over_nothing_else() {
         let before = fs::read(at(file)).unwrap();
         let message = refused(&to(file));
         let why = match file {
-            "bytes" => "cannot be read, so that it is not overwritten: it is not UTF-8 text",
+            "bytes" => {
+                "cannot be read, so that it is not overwritten: it is not UTF-8 text in line 1"
+            }
             _ => "is no compiled robot: it is not overwritten",
         };
         assert_eq!(

@@ -213,7 +213,10 @@ impl<'a> Reader<'a> {
                 .value(name)
                 .filter(|_| attribute.namespace().is_none());
             let Some(value) = value else {
-                let reason = vocabulary::attribute_refusal(element.name, name);
+                let reason = match element.nearest(name) {
+                    Some(meant) => format!("did you mean {meant}?"),
+                    None => vocabulary::attribute_refusal(element.name, name).to_owned(),
+                };
                 let (name, element) = (foreign_text::cut(name), element.name);
                 let message = format!("{name} of <{element}> is not read here: {reason}");
                 return Err(self.error(at, message));

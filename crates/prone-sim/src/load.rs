@@ -21,8 +21,9 @@ use std::sync::Arc;
 
 use mujoco_rs::prelude::*;
 
-use prone::robot::symmetry::Asymmetry;
-use prone::robot::{Robot, plausible};
+use prone::plausible;
+use prone::plausible::symmetry::Asymmetry;
+use prone::robot::Robot;
 use prone_files::FileError;
 use prone_files::model_file::ModelFile;
 use prone_files::robot_file::RobotFile;

@@ -28,6 +28,7 @@ pub mod frames;
 pub mod gait;
 pub mod mapping;
 pub mod motor;
+pub mod plausible;
 pub mod port;
 pub mod regime;
 pub mod robot;

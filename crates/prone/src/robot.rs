@@ -14,9 +14,7 @@ mod kinematics;
 mod level;
 mod limbs;
 pub(crate) mod mirror;
-pub mod plausible;
 mod shape;
-pub mod symmetry;
 #[cfg(test)]
 pub(crate) mod testing;
 mod tops;

@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 use serde::{Deserialize, Serialize};
 
 use prone::mapping;
-use prone::robot::plausible::{self, About, Implausible};
+use prone::plausible::{self, About, Implausible};
 use prone::robot::{Body, ContactGroup, JointAngles, JointId, Robot, check_limbs};
 
 use super::bodies::{BodyDocument, JointDocument, ShapeDocument, check_moved};

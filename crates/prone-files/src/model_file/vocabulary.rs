@@ -3,6 +3,8 @@
 //! Everything else is refused. The names are those of the format's reference,
 //! <https://mujoco.readthedocs.io/en/stable/XMLreference.html>.
 
+use strsim::osa_distance;
+
 use super::value::{Bound, Value};
 use Value::{Class, ClassName, Ignored, Impedance, Name, Numbers, Softness, Word};
 
@@ -33,6 +35,15 @@ impl Element {
         let mut all = self.attributes.iter().flat_map(|some| some.iter());
         all.find(|(name, _)| *name == attribute)
             .map(|(_, value)| *value)
+    }
+
+    /// The attribute that may have been meant, where one is near.
+    pub(super) fn nearest(&self, attribute: &str) -> Option<&'static str> {
+        /// One letter more, less, wrong or exchanged.
+        const NEAR: usize = 1;
+        let mut all = self.attributes.iter().flat_map(|some| some.iter());
+        all.find(|(name, _)| osa_distance(name, attribute) <= NEAR)
+            .map(|(name, _)| *name)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use mujoco_rs::prelude::*;
 
-use prone::robot::plausible::{self, About, Implausible};
+use prone::plausible::{self, About, Implausible};
 use prone::robot::{JointId, Robot};
 use prone_files::FileError;
 use prone_files::model_file::{ModelFile, ModelPart};

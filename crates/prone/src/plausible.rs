@@ -1,16 +1,22 @@
 //! Whether a robot's numbers are those of a robot: masses, motors and limits in proportion to its size
 //! and to each other.
 //!
-//! A number can be within all its own bounds ([`super::bounds`]) and still be wrong by its unit, or by a
+//! A number can be within all its own bounds ([`crate::robot::bounds`]) and still be wrong by its unit, or by a
 //! factor. The engine would simulate that, and what comes out looks like a result. So each is compared
 //! with what it has to do. The limits are far from all robots that are built: every one says what it
 //! protects.
 
-use super::symmetry::{self, Asymmetry, AsymmetryError};
-use super::{BodyId, BodyPoses, Joint, JointId, Robot, bounds};
-use crate::frames::Root;
-use crate::statics::GRAVITY;
+mod about;
+pub mod symmetry;
+
 use glam::DVec3;
+
+use crate::frames::Root;
+use crate::robot::{BodyId, BodyPoses, Joint, JointId, Robot, bounds};
+use crate::statics::GRAVITY;
+pub use about::About;
+use about::short;
+use symmetry::{Asymmetry, AsymmetryError};
 
 /// Mass over the cube of the chain's length, kg/m³. That of people and of humanoids is 10 to 30.
 const MASS_OVER_LENGTH_CUBED: (f64, f64) = (1.0, 150.0);
@@ -29,33 +35,6 @@ const CONTINUOUS_SHARE: (f64, f64) = (1e-3, 1.0);
 const EFFORT_OVER_STALL: f64 = 2.0;
 /// Stated lengths over that of the chain.
 const LENGTH_SHARE: (f64, f64) = (0.3, 4.0);
-
-/// What a number belongs to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum About {
-    /// The robot.
-    Robot,
-    /// How high it stands.
-    StandingHeight,
-    /// How long it lies.
-    LyingLength,
-    /// Mass of a body.
-    Mass(BodyId),
-    /// Centre of mass of a body.
-    CentreOfMass(BodyId),
-    /// Stops of a joint.
-    Range(JointId),
-    /// Axis and place of a joint.
-    Hinge(JointId),
-    /// Effort limit of a joint.
-    Effort(JointId),
-    /// Speed limit of a joint.
-    Speed(JointId),
-    /// Stiffness of a joint's servo.
-    Stiffness(JointId),
-    /// Continuous torque of a joint's motor.
-    ContinuousTorque(JointId),
-}
 
 /// A number that no robot has.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -132,19 +111,6 @@ fn within(
         short(largest)
     );
     Err(Implausible { about, message })
-}
-
-/// A number with as many digits as a reader needs.
-pub(super) fn short(value: f64) -> String {
-    let size = value.abs();
-    if size > 0.0 && !(1e-4..1e7).contains(&size) {
-        return format!("{value:.3e}");
-    }
-    let rounded = format!("{value:.5}");
-    rounded
-        .trim_end_matches('0')
-        .trim_end_matches('.')
-        .to_owned()
 }
 
 fn check_lengths(robot: &Robot, length: f64) -> Result<(), Implausible> {

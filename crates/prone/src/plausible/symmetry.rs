@@ -7,10 +7,10 @@
 
 use glam::DVec3;
 
-use super::mirror::{mirrored_axis, mirrored_point};
-use super::plausible::{About, short};
-use super::{BodyId, BodyPoses, ChainSide, Joint, JointId, Range, Robot, SideLayout};
+use super::about::{About, short};
 use crate::frames::Root;
+use crate::robot::mirror::{mirrored_axis, mirrored_point};
+use crate::robot::{Body, BodyId, BodyPoses, ChainSide, Joint, JointId, Range, Robot, SideLayout};
 
 /// What a difference may be: what is only told above the first, and refused above the second.
 struct Limit {
@@ -238,8 +238,7 @@ impl Sides<'_> {
                 one.name, other.name
             )
         })?;
-        let centre =
-            |id: BodyId, body: &super::Body| self.poses.point((id, body.centre_of_mass)).metres();
+        let centre = |id: BodyId, body: &Body| self.poses.point((id, body.centre_of_mass)).metres();
         let (here, there): (DVec3, DVec3) = (centre(right, other), centre(left, one));
         let off = here.distance(mirrored_point(there));
         let limit = Limit {
