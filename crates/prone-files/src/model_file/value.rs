@@ -239,7 +239,7 @@ fn softness(numbers: &[f64]) -> Result<(), String> {
 /// of the transition.
 fn impedance(numbers: &[f64]) -> Result<(), String> {
     let bounds = [
-        ("the impedance at the surface", 0.001, 1.0),
+        ("the impedance at the surface", 0.0, 1.0),
         ("the impedance in the depth", 0.5, 1.0),
         ("the depth", 0.0, 0.1),
         ("the midpoint", 0.0, 1.0),
