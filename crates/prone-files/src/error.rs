@@ -2,6 +2,10 @@
 
 use std::ops::Range;
 
+use prone::foreign_text;
+
+use crate::odd_toml;
+
 /// What is wrong with a text file, and where.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{file}:{line}:{column}: {message}")]
@@ -27,8 +31,10 @@ impl Source<'_> {
     /// Parses TOML into `T`.
     pub(crate) fn parse<T: serde::de::DeserializeOwned>(self) -> Result<T, FileError> {
         toml::from_str(self.text).map_err(|error| {
-            let message = error.message().lines().collect::<Vec<_>>().join("; ");
-            self.error(error.span().unwrap_or(0..0), message)
+            let span = error.span().unwrap_or(0..0);
+            let message = odd_toml::explained(self.text, span.clone())
+                .unwrap_or_else(|| foreign_text::message(error.message()));
+            self.error(span, message)
         })
     }
 

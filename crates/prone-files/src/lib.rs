@@ -17,6 +17,7 @@ pub mod gait_text;
 pub mod gaits;
 pub mod model_file;
 pub mod names;
+mod odd_toml;
 pub mod part_name;
 pub mod plain_name;
 pub mod robot_file;

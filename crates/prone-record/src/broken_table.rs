@@ -1,6 +1,8 @@
 //! A CSV file in memory, up to where it breaks off: the one reader of tables that may be cut.
 
-use csv::{ReaderBuilder, StringRecord};
+use csv::StringRecord;
+
+use prone::csv_text::{self, Dialect};
 
 /// Whole lines of a CSV file, and what ends them.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,30 +40,17 @@ impl BrokenTable {
             broken: None,
             after: whole.matches('\n').count() + 1,
         };
-        let reader = ReaderBuilder::new()
-            .has_headers(false)
-            .flexible(true)
-            .from_reader(whole.as_bytes());
-        for (index, record) in reader.into_records().enumerate() {
-            // A text in memory of any number of cells has no errors.
-            let Ok(record) = record else { break };
-            if index == 0 {
-                table.header = record;
-                continue;
-            }
-            #[expect(
-                clippy::cast_possible_truncation,
-                reason = "a number of lines in memory"
-            )]
-            let line = record
-                .position()
-                .map_or(index + 1, |position| position.line() as usize);
-            let (found, expected) = (record.len(), table.header.len());
+        let mut lines = csv_text::lines(whole);
+        if let Some(header) = lines.next() {
+            table.header = header.cells;
+        }
+        for line in lines {
+            let (found, expected) = (line.cells.len(), table.header.len());
             if found != expected {
-                table.broken = Some((line, Break::Cells { found, expected }));
+                table.broken = Some((line.number, Break::Cells { found, expected }));
                 return table;
             }
-            table.lines.push((line, record));
+            table.lines.push((line.number, line.cells));
         }
         if whole.len() < text.len() {
             table.broken = Some((table.after, Break::Unfinished));
@@ -72,6 +61,11 @@ impl BrokenTable {
     /// Names of the columns.
     pub const fn header(&self) -> &StringRecord {
         &self.header
+    }
+
+    /// By what the cells are separated, where that is not commas.
+    pub fn dialect(&self) -> Option<Dialect> {
+        Dialect::of(&self.header)
     }
 
     /// Place of a column, if the table has it.

@@ -22,7 +22,7 @@ pub(crate) fn run(args: &PlotArgs) -> Result<(), Failure> {
     output::check(&args.out).map_err(Failure::input)?;
     let file = MapFile {
         name: name.to_string(),
-        comments: comments(&text).map(str::to_owned).collect(),
+        comments: comments(&text).collect(),
     };
     let artefacts =
         plot::artefacts(&map, &slices, &file, &crate::program()).map_err(Failure::work)?;

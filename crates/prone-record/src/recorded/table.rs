@@ -4,6 +4,8 @@ use std::path::Path;
 
 use csv::StringRecord;
 
+use prone::foreign_text;
+
 use super::{Cut, Damage, Part, ReadError};
 use crate::broken_table::BrokenTable;
 use crate::record_columns::labels;
@@ -48,10 +50,11 @@ impl Table {
         let labels = labels(self.part);
         for (place, column) in self.header().enumerate() {
             let problem = if self.find(column) != Some(place) {
-                format!("the column {column} is there twice")
+                format!("the column {} is there twice", foreign_text::cut(column))
             } else if labels.contains(&column) || extent.columns(self.part).any(|it| it == column) {
                 continue;
             } else {
+                let column = foreign_text::cut(column);
                 format!("record.channels of run.json does not list the column {column}")
             };
             let file = folder.join(self.part.file()).display().to_string();
@@ -75,9 +78,18 @@ impl Table {
 
     /// Where a column is that must be there.
     pub(super) fn column(&self, folder: &Path, name: &str) -> Result<usize, ReadError> {
-        self.find(name).ok_or_else(|| ReadError::Column {
-            file: folder.join(self.part.file()).display().to_string(),
-            column: name.to_owned(),
+        self.find(name).ok_or_else(|| {
+            let file = folder.join(self.part.file()).display().to_string();
+            match self.content.dialect() {
+                Some(dialect) => ReadError::Content {
+                    file,
+                    problem: dialect.to_string(),
+                },
+                None => ReadError::Column {
+                    file,
+                    column: foreign_text::cut(name).into_owned(),
+                },
+            }
         })
     }
 
@@ -130,7 +142,7 @@ impl<'a> Cells<'a> {
 
     /// A number; nothing where the cell is empty.
     pub(super) fn optional(&self, column: usize) -> Result<Option<f64>, Damage> {
-        let text = self.text(column);
+        let text = self.text(column).trim();
         if text.is_empty() {
             return Ok(None);
         }
@@ -158,7 +170,7 @@ impl<'a> Cells<'a> {
 
     /// A count from `least` on.
     pub(super) fn count(&self, column: usize, least: usize) -> Result<usize, Damage> {
-        let count = self.text(column).parse().ok();
+        let count = self.text(column).trim().parse().ok();
         count
             .filter(|count| (least..=MOST).contains(count))
             .ok_or_else(|| self.outside(column, format!("{least} to {MOST}")))
@@ -182,8 +194,11 @@ impl<'a> Cells<'a> {
 
     /// Name of a column, and the beginning of what stands there.
     fn said(&self, column: usize) -> (String, String) {
-        let text = self.text(column).chars().take(SHOWN);
-        (self.header[column].to_owned(), text.collect())
+        let text: String = self.text(column).chars().take(SHOWN).collect();
+        (
+            foreign_text::cut(&self.header[column]).into_owned(),
+            foreign_text::escaped(&text).into_owned(),
+        )
     }
 }
 

@@ -51,6 +51,9 @@ pub const COLUMNS: [&str; 18] = [
     "leg",
 ];
 
+/// What a comment begins with.
+const COMMENT: char = '#';
+
 const TOE: usize = 0;
 const ANKLE: usize = 1;
 const KNEE: usize = 2;
@@ -60,6 +63,3 @@ const UPPER_ARM: usize = 5;
 const ANKLE_JOINT: usize = 6;
 const FIRST_TORQUE: usize = 10;
 const FIRST_FORCE: usize = 14;
-
-/// What a comment begins with.
-const COMMENT: char = '#';

@@ -201,7 +201,7 @@ fn limit_lines_are_those_of_the_file() {
         commented(&lines).unwrap_err().to_string(),
         "line 7, column theta1: `x` is not a number that belongs there"
     );
-    lines[6] = String::new();
+    lines[6] = "x".to_owned();
     assert_eq!(
         commented(&lines).unwrap_err().to_string(),
         "line 7 has 1 columns, not 14 as the rows before it"
@@ -386,4 +386,95 @@ fn identity_written_angles_close_the_chain() {
         }
     }
     assert!(closed > 0);
+}
+
+/// What a spreadsheet or a data frame makes of a table is the same table, or is named.
+#[test]
+fn tables_of_others_are_read_or_named() {
+    let mut lines = table();
+    // One row without torques.
+    lines[3] = "1.8,-2.1,0.1,-0.2,-0.6,-0.5236,0,0,0,0,NaN,NaN,NaN,NaN".to_owned();
+    let table = format!("# a, comment\n{}", file(&lines));
+    let whole = parse(&table).unwrap();
+    let numbers = |text: &str| -> Vec<Vec<String>> {
+        let lines = text.lines().filter(|line| !line.starts_with('#'));
+        lines
+            .map(|line| line.split(',').map(str::to_owned).collect())
+            .collect()
+    };
+    let rows = numbers(&table);
+    let written = |separator: &str, cell: &dyn Fn(&str) -> String| -> String {
+        let row = |row: &Vec<String>| {
+            let cells: Vec<String> = row.iter().map(|it| cell(it)).collect();
+            cells.join(separator) + "\n"
+        };
+        rows.iter().map(row).collect()
+    };
+    let same = |cell: &str| cell.to_owned();
+    let plain = written(",", &same);
+    let header = COLUMNS[..rows[0].len()].join(",") + "\n";
+    let counted: Vec<String> = (0..rows[0].len()).map(|index| index.to_string()).collect();
+    for text in [
+        plain.clone(),
+        format!("\u{feff}{plain}"),
+        plain.replace('\n', "\r\n"),
+        plain.replace('\n', "\r"),
+        format!("\"# a, \"\"comment\"\"\",,,\n\n{plain},,,\n\n"),
+        format!("{header}{plain}"),
+        format!("{}\n{plain}", counted.join(",")),
+        written(",", &|cell| format!("\"{cell}\"")),
+        written(" , ", &same),
+        written(",", &|cell| cell.replace("NaN", "")),
+        written(",", &|cell| cell.replace("NaN", "nan")),
+    ] {
+        assert_eq!(parse(&text), Ok(whole.clone()), "{text}");
+    }
+    let index = |row: usize, line: &str| format!("{row},{line}\n");
+    let indexed: String = plain
+        .lines()
+        .enumerate()
+        .map(|(row, line)| index(row, line))
+        .collect();
+    for (text, says) in [
+        (
+            written(";", &same),
+            "line 1: its cells are separated by semicolons",
+        ),
+        (
+            written(";", &|cell| cell.replace('.', ",")),
+            "line 1: its cells are separated by semicolons",
+        ),
+        (
+            written("\t", &same),
+            "line 1: its cells are separated by tabs",
+        ),
+        (
+            written(",", &|cell| format!("\"{}\"", cell.replace('.', ","))),
+            "is not a number that belongs there: a number has a point, not a comma",
+        ),
+        (
+            written(",", &|cell| cell.replace('-', "\u{2212}")),
+            "a sign is written -",
+        ),
+        (
+            written(",", &|cell| cell.replace("NaN", "#N/A")),
+            "it stands for a number that is not there",
+        ),
+        (
+            indexed,
+            "write the table without its index (pandas: index=False)",
+        ),
+        (
+            format!("{}\n{plain}", header.trim_end().replace("theta1", "theta2")),
+            "column 1 is called theta2, where theta1 stands",
+        ),
+        (format!("sep=;\n{}", written(";", &same)), "semicolons"),
+        (
+            plain.trim_end().to_owned(),
+            "has no end: the file is cut there",
+        ),
+    ] {
+        let error = parse(&text).unwrap_err().to_string();
+        assert!(error.contains(says), "{error}\nnot {says}");
+    }
 }

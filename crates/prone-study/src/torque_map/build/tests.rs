@@ -146,7 +146,7 @@ fn identity_a_built_map_is_read_with_its_masks_and_contacts() {
     let comments: Vec<_> = torque_map::comments(&built.text).collect();
     assert_eq!(comments[0], "torque map by prone 0.0.0, commit test");
     let columns = format!("columns: {}", torque_map::COLUMNS.join(","));
-    assert_eq!(comments.last(), Some(&columns.as_str()));
+    assert_eq!(comments.last(), Some(&columns));
 }
 
 /// Both gauges against the sources that the map's documentation names.

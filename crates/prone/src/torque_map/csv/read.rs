@@ -1,23 +1,48 @@
 //! Torque maps from text.
 
+use csv::StringRecord;
+
+use crate::csv_text::{self, Dialect, Line};
+use crate::{foreign_text, odd_number};
+
 use super::super::{
     Axis, ContactForces, EDGE_TOLERANCE, Grid, GridError, JointTorques, Mask, RecordedMap, Row,
     TorqueMap,
 };
-use super::{
-    ANKLE, COLUMNS, COMMENT, FIRST_FORCE, FIRST_TORQUE, HIP, KNEE, SHOULDER, TOE, UPPER_ARM,
-};
+use super::{ANKLE, COLUMNS, FIRST_FORCE, FIRST_TORQUE, HIP, KNEE, SHOULDER, TOE, UPPER_ARM};
 
 /// Why a text is not such a table.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ParseError {
     /// The first row has neither number of columns.
-    #[error("line {line} has {columns} columns, not 14 or 18")]
+    #[error("line {line} has {columns} columns, not 14 or 18{hint}")]
     Columns {
         /// The line of the file, from 1.
         line: usize,
         /// Its columns.
         columns: usize,
+        /// What that may come from.
+        hint: &'static str,
+    },
+    /// Cells are not separated by commas.
+    #[error("line {line}: {dialect}")]
+    Dialect {
+        /// The line of the file, from 1.
+        line: usize,
+        /// What they are separated by.
+        dialect: Dialect,
+    },
+    /// The first row names the columns, and names others, or in another order.
+    #[error("line {line}: column {place} is called {found}, where {expected} stands")]
+    Header {
+        /// The line of the file, from 1.
+        line: usize,
+        /// Number of the column, from 1.
+        place: usize,
+        /// Its name, cut.
+        found: String,
+        /// The name of what belongs there.
+        expected: &'static str,
     },
     /// A later row has more or fewer columns than the first.
     #[error("line {line} has {columns} columns, not {expected} as the rows before it")]
@@ -30,14 +55,16 @@ pub enum ParseError {
         expected: usize,
     },
     /// Not a number, or not a finite one where it must be.
-    #[error("line {line}, column {column}: `{value}` is not a number that belongs there")]
+    #[error("line {line}, column {column}: `{value}` is not a number that belongs there{reason}")]
     Number {
         /// The line of the file, from 1.
         line: usize,
         /// The column's name.
         column: &'static str,
-        /// What stands there.
+        /// What stands there, cut.
         value: String,
+        /// What it is, where that is known, after a colon.
+        reason: String,
     },
     /// A row is not at its node of a regular grid.
     #[error(
@@ -102,17 +129,23 @@ pub fn parse(text: &str) -> Result<TorqueMap, ParseError> {
 /// [`ParseError`], naming line, column and value.
 pub fn parse_recorded(text: &str) -> Result<RecordedMap, ParseError> {
     let mut records: Vec<Record> = Vec::new();
-    for (index, content) in text.lines().enumerate() {
-        if !content.starts_with(COMMENT) {
-            let expected = records.first().map(|record| record.columns);
-            records.push(Record::read(index + 1, content, expected)?);
-        }
+    let mut lines = csv_text::lines(text)
+        .filter(|line| !line.is_comment())
+        .peekable();
+    if let Some(first) = lines.peek()
+        && is_header(first)?
+    {
+        lines.next();
+    }
+    let mut last = 0;
+    for line in lines {
+        let expected = records.first().map(|record| record.columns);
+        last = line.number;
+        records.push(Record::read(&line, expected)?);
     }
     let grid = grid_of(&records)?;
-    if !text.ends_with('\n') {
-        return Err(ParseError::Cut {
-            line: text.lines().count(),
-        });
+    if !csv_text::is_ended(text) {
+        return Err(ParseError::Cut { line: last });
     }
     let mut rows = vec![None; grid.len()];
     let mut contacts = vec![None; grid.len()];
@@ -127,17 +160,71 @@ pub fn parse_recorded(text: &str) -> Result<RecordedMap, ParseError> {
 }
 
 /// The comments of a table, without what marks them.
-pub fn comments(text: &str) -> impl Iterator<Item = &str> {
-    let marked = text.lines().filter_map(|line| line.strip_prefix(COMMENT));
-    marked.map(str::trim)
+pub fn comments(text: &str) -> impl Iterator<Item = String> {
+    csv_text::comments(text)
+}
+
+/// Whether a line names the columns, by our names or by their numbers, as data frames do.
+fn is_header(line: &Line) -> Result<bool, ParseError> {
+    if line.counts_columns() {
+        return Ok(true);
+    }
+    let is_name = |cell: &str| COLUMNS.contains(&cell.trim());
+    if !line.cells.iter().any(is_name) {
+        return Ok(false);
+    }
+    let named = line.cells.iter().zip(COLUMNS).enumerate();
+    for (place, (found, expected)) in named {
+        if found.trim() != expected {
+            return Err(ParseError::Header {
+                line: line.number,
+                place: place + 1,
+                found: foreign_text::cut(found).into_owned(),
+                expected,
+            });
+        }
+    }
+    Ok(true)
+}
+
+/// What a number of columns that no map has may come from.
+fn hint(columns: usize, cells: &StringRecord) -> &'static str {
+    let is_count = cells
+        .get(0)
+        .is_some_and(|cell| cell.trim().parse::<u32>().is_ok() || cell.trim().is_empty());
+    match columns {
+        15 | 19 if is_count => {
+            "; the first one counts the rows: write the table without its index (pandas: index=False)"
+        }
+        28 | 36 => "; with decimal commas each number is two cells: a number has a point",
+        _ => "",
+    }
 }
 
 impl Record {
-    fn read(line: usize, content: &str, expected: Option<usize>) -> Result<Self, ParseError> {
-        let columns = content.split(',').count();
+    fn read(
+        Line {
+            number: line,
+            cells,
+        }: &Line,
+        expected: Option<usize>,
+    ) -> Result<Self, ParseError> {
+        let (line, columns) = (*line, cells.len());
+        let fits = match expected {
+            None => columns == FIRST_FORCE || columns == COLUMNS.len(),
+            Some(expected) => columns == expected,
+        };
+        if !fits && let Some(dialect) = Dialect::of(cells) {
+            return Err(ParseError::Dialect { line, dialect });
+        }
         match expected {
-            None if columns != FIRST_FORCE && columns != COLUMNS.len() => {
-                return Err(ParseError::Columns { line, columns });
+            None if !fits => {
+                let hint = hint(columns, cells);
+                return Err(ParseError::Columns {
+                    line,
+                    columns,
+                    hint,
+                });
             }
             Some(expected) if columns != expected => {
                 return Err(ParseError::Ragged {
@@ -153,12 +240,16 @@ impl Record {
             columns,
             numbers: [f64::NAN; COLUMNS.len()],
         };
-        for (place, cell) in content.split(',').enumerate() {
-            let value = cell.trim().parse();
-            record.numbers[place] = value.map_err(|_| record.misplaced(place, content))?;
+        for (place, cell) in cells.iter().enumerate() {
+            // A data frame writes nothing where it has no number.
+            let value = match cell.trim() {
+                "" => Ok(f64::NAN),
+                cell => cell.parse(),
+            };
+            record.numbers[place] = value.map_err(|_| record.misplaced(place, cell))?;
         }
         let misplaced = (0..columns).find(|&place| !record.belongs(place));
-        misplaced.map_or(Ok(()), |place| Err(record.misplaced(place, content)))?;
+        misplaced.map_or(Ok(()), |place| Err(record.misplaced(place, &cells[place])))?;
         Ok(record)
     }
 
@@ -174,16 +265,13 @@ impl Record {
         value.is_finite() || (value.is_nan() && may_be_missing)
     }
 
-    fn misplaced(&self, place: usize, content: &str) -> ParseError {
+    fn misplaced(&self, place: usize, cell: &str) -> ParseError {
+        let reason = odd_number::explained(cell);
         ParseError::Number {
             line: self.line,
             column: COLUMNS[place],
-            value: content
-                .split(',')
-                .nth(place)
-                .unwrap_or("")
-                .trim()
-                .to_owned(),
+            value: foreign_text::cut(cell.trim()).into_owned(),
+            reason: reason.map_or_else(String::new, |reason| format!(": {reason}")),
         }
     }
 
