@@ -93,8 +93,6 @@ mod tests {
     use std::fs;
     use std::sync::Arc;
 
-    use super::*;
-
     #[test]
     fn what_is_settled_or_dropped_is_not_written_down() {
         let made = Arc::new(());

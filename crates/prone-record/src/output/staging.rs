@@ -149,10 +149,14 @@ impl Staging {
         let Self {
             folder,
             leftover,
-            _lock,
+            _lock: lock,
         } = self;
         // What comes out of the target may be a stranger, and no leftover.
-        leftover.settle(|| Staged { folder, _lock }.place(target))
+        let staged = Staged {
+            folder,
+            _lock: lock,
+        };
+        leftover.settle(|| staged.place(target))
     }
 }
 
@@ -250,8 +254,16 @@ mod tests {
         fs::write(target.folder.join("cat.jpg"), b"cat").unwrap();
         // Between the last look and the exchange.
         exchange(&staging.result(), &target.folder).unwrap();
-        let Staging { folder, _lock, .. } = staging;
-        let refused = Staged { folder, _lock }.check_replaced(&target);
+        let Staging {
+            folder,
+            _lock: lock,
+            ..
+        } = staging;
+        let complete = Staged {
+            folder,
+            _lock: lock,
+        };
+        let refused = complete.check_replaced(&target);
         assert!(matches!(refused, Err(OutputError::Foreign { .. })));
         assert_eq!(entries(&target.folder), ["cat.jpg"]);
         assert_eq!(entries(home.path()), ["result"], "the staging is gone");
