@@ -51,7 +51,12 @@ Examples:
   prone export out/low --format mcap      the recorded crawl for other tools
   prone list                              gaits, cycles, scenes and robots by name
   prone gait show nominal                 a gait's joints, limits and heights
-  prone robot check robots/nao            validate a robot and print its chain")]
+  prone robot check robots/nao            validate a robot and print its chain
+
+Exit codes: 0 done; 2 the input is wrong: an option, a file, or a place for the result that is seen to
+be wrong before the work begins; 1 the work failed, or its result could not be written, on a full disk
+for example; 130 stopped by Ctrl-C, SIGTERM or SIGHUP. The first Ctrl-C is answered at once and ends
+the work within two seconds, a second one ends the program at once.")]
 pub(crate) struct Args {
     #[command(subcommand)]
     pub(crate) command: Command,

@@ -12,6 +12,7 @@ use prone_study::run::CostOutcome;
 use crate::Failure;
 use crate::args::optimize::CostArgs;
 use crate::cells::{number, trimmed};
+use crate::outputs::Files;
 use crate::plan::{OnContact, Plan, Work};
 use crate::{cycle_search, pull_terms};
 
@@ -30,7 +31,7 @@ pub(crate) fn plan(args: &CostArgs) -> Result<Plan, Failure> {
     };
     Ok(Plan {
         work: Work::Study(experiment),
-        out: None,
+        files: Files::default(),
         opening: Opening::Restart,
         threads: None,
         json: args.json,

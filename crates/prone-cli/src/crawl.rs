@@ -11,6 +11,7 @@ use prone_study::run::CrawlOutcome;
 
 use crate::Failure;
 use crate::args::{CrawlCommand, CrawlRunArgs};
+use crate::outputs::Kind;
 use crate::plan::{OnContact, Plan, Work};
 
 pub(crate) use report::print;
@@ -24,10 +25,10 @@ pub(crate) fn plan(command: &CrawlCommand) -> Result<Plan, Failure> {
 }
 
 fn crawl_run(args: &CrawlRunArgs) -> Result<Plan, Failure> {
-    let experiment = Experiment::Crawl(Box::new(experiment::of(args)?));
+    let (experiment, read) = experiment::of(args)?;
     Ok(Plan {
-        work: Work::Study(experiment),
-        out: args.record.clone(),
+        work: Work::Study(Experiment::Crawl(Box::new(experiment))),
+        files: read.maybe_writing("--record", args.record.as_ref(), Kind::Folder),
         opening: Opening::Restart,
         threads: args.threads,
         json: args.json,

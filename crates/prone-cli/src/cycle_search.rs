@@ -20,6 +20,7 @@ use crate::args::passage::{AgainstName, FrontierArgs};
 use crate::args::pull_terms::{ObjectiveName, PullTermsArgs};
 use crate::cells::number;
 use crate::gait::find_cycle;
+use crate::outputs::{Files, Kind};
 use crate::plan::{self, OnContact, Plan, Work};
 
 /// Ceilings, mm, where none are asked for.
@@ -49,9 +50,10 @@ pub(crate) fn frontier(args: &FrontierArgs) -> Result<Plan, Failure> {
         time_budget_s: args.time_budget,
         ..asked(&files, &args.from)?
     };
+    let read = read(&files, &args.from, None)?;
     Ok(Plan {
         work: Work::Study(Experiment::CycleSearch(Box::new(experiment))),
-        out: Some(args.out.clone()),
+        files: read.writing("--out", &args.out, Kind::Folder),
         opening: plan::searching(args.resume),
         threads: args.threads,
         json: args.json,
@@ -103,11 +105,11 @@ fn values(args: &FrontierArgs, held: Quantity) -> Result<Vec<f64>, Failure> {
 }
 
 /// `prone optimize --source cycle`.
-pub(crate) fn experiment(args: &OptimizeArgs) -> Result<CycleSearchExperiment, Failure> {
+pub(crate) fn experiment(args: &OptimizeArgs) -> Result<(CycleSearchExperiment, Files), Failure> {
     refuse_options_of_pulls(&args.terms)?;
     refuse_options_of_searches_of_pulls(args)?;
     let files = crate::robot::files(args.terms.robot.name())?;
-    Ok(CycleSearchExperiment {
+    let experiment = CycleSearchExperiment {
         objective: objective(&args.terms)?,
         steerable: args.cycle.steerable,
         ideal: args.cycle.ideal,
@@ -124,7 +126,22 @@ pub(crate) fn experiment(args: &OptimizeArgs) -> Result<CycleSearchExperiment, F
         },
         time_budget_s: args.time_budget,
         ..asked(&files, args.terms.from.as_slice())?
-    })
+    };
+    let worst_over = args.cycle.worst_over.as_ref();
+    let read = read(&files, args.terms.from.as_slice(), worst_over)?;
+    Ok((experiment, read))
+}
+
+/// The files that a search about cycles reads.
+fn read(
+    files: &RobotFiles,
+    from: &[String],
+    worst_over: Option<&String>,
+) -> Result<Files, Failure> {
+    let defaults = files.defaults().map_err(Failure::input)?.cycle;
+    let usual = defaults.from.iter().chain(&defaults.compared);
+    let all = usual.chain(from).chain(worst_over);
+    Ok(Files::of_robot(files).reading_gaits(&files.gaits, all))
 }
 
 /// What is minimised of cycles.

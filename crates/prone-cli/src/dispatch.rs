@@ -1,6 +1,7 @@
 //! Carrying out what was typed: whatever can be run is run here, and what came out is shown.
 
 use std::io::Write;
+use std::path::Path;
 use std::sync::Arc;
 
 use serde::Serialize;
@@ -13,8 +14,8 @@ use prone_thesis::reproduce::Reproduction;
 
 use crate::plan::{Plan, Work};
 use crate::progress::Progress;
-use crate::{Failure, cost, crawl, cycle_search, interrupt, optimize, passage, refusal, reproduce};
-use crate::{program, torque_map};
+use crate::{Failure, cost, crawl, cycle_search, failure, interrupt, optimize, passage, refusal};
+use crate::{program, reproduce, torque_map};
 
 /// What came out.
 enum Done {
@@ -24,13 +25,15 @@ enum Done {
 
 /// Runs what a plan says, puts its result in place, and prints it.
 pub(crate) fn carry_out(plan: &Plan) -> Result<(), Failure> {
-    interrupt::listen()?;
+    plan.files.check()?;
+    let kept = plan.kept();
+    interrupt::work(plan.work.step(), kept);
     let session = Session {
         program: program(),
         threads: plan.threads.map(usize::from),
         joint_ranges: Arc::new(published::crawl_range),
-        place: plan.out.clone().map(|path| Place {
-            path,
+        place: plan.out().map(|path| Place {
+            path: path.to_owned(),
             opening: plan.opening,
         }),
     };
@@ -50,6 +53,7 @@ pub(crate) fn carry_out(plan: &Plan) -> Result<(), Failure> {
     };
     progress.finish();
     let done = done?;
+    interrupt::ended();
     done.remark();
     let mut out = std::io::stdout().lock();
     if plan.json {
@@ -78,7 +82,7 @@ impl Done {
     /// What came out as tables, and the place of the files.
     fn print(&self, plan: &Plan, out: &mut dyn Write) -> std::io::Result<()> {
         let place = |out: &mut dyn Write, noun: &str, file: Option<&str>| {
-            plan.out.as_ref().map_or(Ok(()), |folder| {
+            plan.out().map_or(Ok(()), |folder| {
                 let path = file.map_or_else(|| folder.to_owned(), |file| folder.join(file));
                 writeln!(out, "\n{noun}: {}", path.display())
             })
@@ -110,8 +114,8 @@ impl Done {
                 }
             },
             Self::Study(Outcome::TorqueMap(it)) => {
-                let map = plan.out.clone().unwrap_or_default();
-                torque_map::build::print(&it.summary, &map, out)
+                let map = plan.out().unwrap_or(Path::new(""));
+                torque_map::build::print(&it.summary, map, out)
             }
         }
     }
@@ -120,11 +124,7 @@ impl Done {
     fn remark(&self) {
         if let Self::Study(Outcome::TorqueMap(map)) = self {
             let (wall_s, threads) = (map.wall.as_secs_f64(), map.threads);
-            // Where nobody listens, nothing is lost.
-            let _ = writeln!(
-                std::io::stderr(),
-                "done in {wall_s:.1} s, threads: {threads}"
-            );
+            failure::say(&format!("done in {wall_s:.1} s, threads: {threads}"));
         }
     }
 

@@ -178,10 +178,6 @@ fn default_place(args: &ExportArgs) -> PathBuf {
     PathBuf::from(format!("{name}.{}", args.format.ending()))
 }
 
-fn cannot_write(out: &Path, error: &std::io::Error) -> Failure {
-    Failure::Work(anyhow!("cannot write {}: {error}", out.display()))
-}
-
 fn span(record: &Recorded) -> String {
     let (from, to) = record.span_s();
     format!(

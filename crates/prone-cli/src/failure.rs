@@ -1,7 +1,17 @@
-//! How a command ends badly.
+//! How a command ends badly, and the one rule of its exit codes.
+//!
+//! - **2, the input is wrong**: what was typed, or what is read, is not what it has to be. Nothing was
+//!   done. A place for a result belongs to what was typed: one that can be seen to be wrong before the
+//!   work begins, as a folder that does not exist or is read-only, is 2.
+//! - **1, the work failed**: everything that goes wrong once it has begun, and all that cannot be
+//!   written then, on a full disk or to standard output; of every command, `--help` included.
+//! - **130, stopped**: by Ctrl-C, SIGTERM or SIGHUP, wherever it was.
 
 use std::io::Write as _;
 use std::process::ExitCode;
+
+use prone_record::output::OutputError;
+use prone_record::single_file::WriteError;
 
 /// Exit code of a run that the user stopped.
 pub(crate) const STOPPED: u8 = 130;
@@ -15,6 +25,8 @@ pub(crate) enum Failure {
     /// What was typed or read is wrong: exit code 2. Nothing was written but what could be read of a
     /// record that was cut off.
     Input(anyhow::Error),
+    /// The same of arguments; clap has said what.
+    Usage,
     /// The work itself failed: exit code 1.
     Work(anyhow::Error),
     /// The user stopped it: exit code 130.
@@ -49,14 +61,33 @@ impl Failure {
     pub(crate) fn report(self) -> ExitCode {
         let (message, code) = match self {
             Self::Input(error) => (format!("error: {error}"), 2),
+            Self::Usage => return ExitCode::from(2),
             Self::Work(error) => (format!("error: {error}"), 1),
             Self::Stopped => ("stopped; nothing was written".to_owned(), STOPPED),
             Self::Paused(kept) => (format!("stopped; {kept}"), STOPPED),
             Self::OutputClosed => return ExitCode::SUCCESS,
         };
-        // Where nobody hears, the exit code still speaks.
-        let _ = writeln!(std::io::stderr(), "{message}");
+        say(&message);
         ExitCode::from(code)
+    }
+}
+
+/// One line to standard error. Where nobody hears, the exit code still speaks.
+pub(crate) fn say(line: &str) {
+    let _ = writeln!(std::io::stderr(), "{line}");
+}
+
+/// A result that cannot be written.
+impl From<WriteError> for Failure {
+    fn from(error: WriteError) -> Self {
+        Self::work(error)
+    }
+}
+
+/// A result folder that cannot be put in its place.
+impl From<OutputError> for Failure {
+    fn from(error: OutputError) -> Self {
+        Self::work(error)
     }
 }
 

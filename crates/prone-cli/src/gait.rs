@@ -3,9 +3,7 @@
 mod cycle;
 
 use std::io::Write as _;
-use std::path::{Path, PathBuf};
-
-use anyhow::anyhow;
+use std::path::Path;
 
 use prone::gait::{Gait, PhaseDuration};
 use prone::robot::Robot;
@@ -17,8 +15,9 @@ use prone_record::single_file;
 use prone_study::crawl::GaitSource;
 use prone_study::gait_sheet::{self, GaitSheet};
 
-use crate::Failure;
 use crate::args::GaitShowArgs;
+use crate::outputs::{Files, Kind};
+use crate::{Failure, interrupt};
 
 /// Every how many of the 101 instants one is printed.
 const PRINTED_EVERY: usize = 10;
@@ -59,10 +58,12 @@ pub(crate) fn show(args: &GaitShowArgs) -> Result<(), Failure> {
     let loaded = crate::robot::load(args.robot.name())?;
     let gaits = &loaded.files().gaits;
     let named = gaits.named(args.gait.name()).map_err(Failure::input)?;
-    let inputs = named.read.iter().chain(&loaded.files().read).cloned();
-    let inputs: Vec<PathBuf> = inputs.collect();
+    let read = named.read.iter();
+    let files = read.fold(Files::of_robot(loaded.files()), Files::reading);
+    let files = files.maybe_writing("--csv", args.csv.as_ref(), Kind::Quick);
+    files.check()?;
     if named.is_cycle() {
-        return cycle::show(args, &loaded, &parse_cycle(named)?, &inputs);
+        return cycle::show(args, &loaded, &parse_cycle(named)?);
     }
     let (gait, _) = parse(&named)?;
     let duration = match args.duration {
@@ -71,7 +72,7 @@ pub(crate) fn show(args: &GaitShowArgs) -> Result<(), Failure> {
     };
     let sheet = gait_sheet::of(loaded.robot(), &gait, duration).map_err(Failure::input)?;
     if let Some(path) = &args.csv {
-        write_csv(&sheet, path, &inputs)?;
+        write_csv(&sheet, path)?;
     }
     let mut out = std::io::stdout().lock();
     if args.json {
@@ -83,16 +84,9 @@ pub(crate) fn show(args: &GaitShowArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-fn write_csv(sheet: &GaitSheet, path: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {
-    if let Some(input) = single_file::same_file(path, inputs) {
-        return Err(Failure::Input(anyhow!(
-            "--csv {} would overwrite {}, which was read",
-            path.display(),
-            input.display()
-        )));
-    }
+fn write_csv(sheet: &GaitSheet, path: &Path) -> Result<(), Failure> {
     let table = sheet.csv().map_err(Failure::work)?;
-    single_file::write(path, &table).map_err(Failure::input)
+    interrupt::publish(|| Ok(single_file::write(path, &table)?))
 }
 
 fn print(sheet: &GaitSheet, robot: &Robot, out: &mut impl std::io::Write) -> std::io::Result<()> {

@@ -16,7 +16,6 @@ const COLUMNS: usize = 100;
 const OWN: &str = "*";
 
 pub(crate) fn run(args: &ListArgs) -> std::result::Result<(), Failure> {
-    interrupt::listen()?;
     let robot = crate::robot::files(args.robot.name())?;
     let named = args.robot.name().and_then(|name| name.to_str());
     let mut listed = catalogue::list(&robot, named).map_err(Failure::input)?;
@@ -30,6 +29,7 @@ pub(crate) fn run(args: &ListArgs) -> std::result::Result<(), Failure> {
             ..Session::default()
         };
         let progress = Progress::new()?;
+        interrupt::work("this simulation", None);
         let measured = catalogue::measure(&mut listed, &robot, &session, &progress);
         progress.finish();
         measured.map_err(|error| match error {
@@ -38,6 +38,7 @@ pub(crate) fn run(args: &ListArgs) -> std::result::Result<(), Failure> {
             error => Failure::input(error),
         })?;
     }
+    interrupt::ended();
     let mut out = std::io::stdout().lock();
     if args.json {
         let text = serde_json::to_string_pretty(&listed).map_err(Failure::work)?;

@@ -1,8 +1,8 @@
 //! The command line of prone: arguments become a plan with an experiment, which one dispatcher runs.
 //!
-//! Results go to standard output, everything else to standard error. Exit codes: 0 done, 1 the
-//! work failed, 2 wrong input (nothing is written, but by `export` what is readable of a record that
-//! was cut off), 130 stopped by the user.
+//! Results go to standard output, everything else to standard error. Exit codes: 0 done, else by the
+//! rule of [`failure`]; where `view` and `export` write what is readable of a record that was cut off,
+//! the code is 2 all the same.
 
 mod args;
 mod cells;
@@ -18,6 +18,7 @@ mod interrupt;
 mod list;
 mod misnamed;
 mod optimize;
+mod outputs;
 mod passage;
 mod plan;
 mod progress;
@@ -30,6 +31,7 @@ mod robot;
 mod torque_map;
 mod view;
 
+use std::io::Write as _;
 use std::process::ExitCode;
 
 use args::{Args, Command, GaitCommand, RobotCommand, TorqueMapCommand};
@@ -37,14 +39,28 @@ use failure::Failure;
 use prone_record::program::Program;
 
 fn main() -> ExitCode {
-    let args = match misnamed::parse(std::env::args_os()) {
-        Ok(args) => args,
-        Err(error) => error.exit(),
-    };
-    match run(args) {
+    // Before anything else, which may be slow.
+    let ended = interrupt::listen().and_then(|()| match misnamed::parse(std::env::args_os()) {
+        Ok(args) => run(args),
+        Err(refused) => tell(&refused),
+    });
+    match ended {
         Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => failure.report(),
+        Err(failure) => {
+            interrupt::ended();
+            failure.report()
+        }
     }
+}
+
+/// Prints what clap has to say: help and version are results, as any other; the rest is wrong input.
+fn tell(said: &clap::Error) -> Result<(), Failure> {
+    let printed = said.print();
+    if said.use_stderr() {
+        return Err(Failure::Usage);
+    }
+    printed?;
+    Ok(std::io::stdout().flush()?)
 }
 
 fn run(args: Args) -> Result<(), Failure> {

@@ -12,18 +12,21 @@ use prone_record::gait_search::Outcome;
 use prone_record::search::Solver;
 
 use crate::args::optimize::{EndsName, OptimizeArgs, SolverName};
+use crate::outputs::{Files, Kind};
 use crate::plan::{self, OnContact, Plan, Work};
 use crate::{Failure, cycle_search, pull_terms};
 
 pub(crate) fn plan(args: &OptimizeArgs) -> Result<Plan, Failure> {
-    let experiment = if args.terms.source.as_deref() == Some("cycle") {
-        Experiment::CycleSearch(Box::new(cycle_search::experiment(args)?))
+    let (experiment, read) = if args.terms.source.as_deref() == Some("cycle") {
+        let (experiment, read) = cycle_search::experiment(args)?;
+        (Experiment::CycleSearch(Box::new(experiment)), read)
     } else {
-        Experiment::PullSearch(Box::new(experiment(args)?))
+        let (experiment, read) = experiment(args)?;
+        (Experiment::PullSearch(Box::new(experiment)), read)
     };
     Ok(Plan {
         work: Work::Study(experiment),
-        out: Some(args.out.clone()),
+        files: read.writing("--out", &args.out, Kind::Folder),
         opening: plan::searching(args.resume),
         threads: args.threads,
         json: args.json,
@@ -31,18 +34,27 @@ pub(crate) fn plan(args: &OptimizeArgs) -> Result<Plan, Failure> {
     })
 }
 
-fn experiment(args: &OptimizeArgs) -> Result<PullSearchExperiment, Failure> {
+fn experiment(args: &OptimizeArgs) -> Result<(PullSearchExperiment, Files), Failure> {
     refuse_cycle_options(args)?;
     let files = crate::robot::files(args.terms.robot.name())?;
     let terms = pull_terms::choice(&args.terms, &files, None)?;
-    let compared = files.defaults().map_err(Failure::input)?.pull.compared;
-    let compared = compared.iter();
+    let usual = files.defaults().map_err(Failure::input)?.pull;
+    let read = Files::of_robot(&files)
+        .reading_gaits(&files.gaits, [&usual.from, &usual.body_share_of])
+        .reading_gaits(&files.gaits, &usual.compared)
+        .reading_gaits(&files.gaits, &args.terms.from)
+        .reading_gaits(&files.gaits, &args.terms.body_share_of);
+    let read = match &terms.source {
+        TorqueChoice::Map(map) => read.reading(&map.file),
+        TorqueChoice::Statics | TorqueChoice::Dynamics { .. } => read,
+    };
+    let compared = usual.compared.iter();
     let compared = compared.map(|name| Ok(crate::gait::find(&files.gaits, name)?.1));
     let budget = match terms.source {
         TorqueChoice::Dynamics { .. } => PullSearchExperiment::DYNAMIC_BUDGET,
         TorqueChoice::Statics | TorqueChoice::Map(_) => PullSearchExperiment::BUDGET,
     };
-    Ok(PullSearchExperiment {
+    let experiment = PullSearchExperiment {
         robot: RobotText::from_files(&files),
         terms,
         form: args.gait_form.unwrap_or(GaitForm::Cubic),
@@ -67,7 +79,8 @@ fn experiment(args: &OptimizeArgs) -> Result<PullSearchExperiment, Failure> {
             None => (1..=10).map(f64::from).collect(),
             Some(durations) => durations.iter().map(|it| it.seconds()).collect(),
         },
-    })
+    };
+    Ok((experiment, read))
 }
 
 /// What belongs to whole cycles is refused, not ignored.

@@ -10,12 +10,13 @@ use prone_study::search::passage::{Candidate, Passage};
 
 use crate::args::passage::UnderArgs;
 use crate::gait::find_cycle;
+use crate::outputs::{Files, Kind};
 use crate::plan::{OnContact, Plan, Work};
 use crate::{Failure, record_folder};
 
 /// What was typed, with the texts of the cycles: those that are named, or else those that the robot's
-/// `[defaults]` name.
-fn experiment(args: &UnderArgs) -> Result<PassageExperiment, Failure> {
+/// `[defaults]` name; and the files that are read.
+fn experiment(args: &UnderArgs) -> Result<(PassageExperiment, Files), Failure> {
     let files = crate::robot::files(args.robot.name())?;
     let usual = files.defaults().map_err(Failure::input)?.cycle.under;
     let names = match args.gaits.names() {
@@ -35,7 +36,8 @@ fn experiment(args: &UnderArgs) -> Result<PassageExperiment, Failure> {
             origin: origin.to_owned(),
         })
     });
-    Ok(PassageExperiment {
+    let read = Files::of_robot(&files).reading_gaits(&files.gaits, names);
+    let experiment = PassageExperiment {
         cycles: cycles.collect::<Result<_, Failure>>()?,
         robot: RobotText::from_files(&files),
         ceiling_mm: args.ceiling_mm,
@@ -45,17 +47,18 @@ fn experiment(args: &UnderArgs) -> Result<PassageExperiment, Failure> {
             seed,
             budget: args.budget,
         }),
-    })
+    };
+    Ok((experiment, read))
 }
 
 pub(crate) fn plan(args: &UnderArgs) -> Result<Plan, Failure> {
-    let experiment = experiment(args)?;
+    let (experiment, read) = experiment(args)?;
     if let Some(path) = &args.gait_out {
         record_folder::check_outside("--gait-out", path)?;
     }
     Ok(Plan {
         work: Work::Study(Experiment::Passage(Box::new(experiment))),
-        out: args.gait_out.clone(),
+        files: read.maybe_writing("--gait-out", args.gait_out.as_ref(), Kind::Lasting),
         opening: Opening::Restart,
         threads: args.threads,
         json: args.json,

@@ -1,6 +1,5 @@
 //! A progress bar on a terminal, silence elsewhere.
 
-use std::io::Write as _;
 use std::path::Path;
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -10,8 +9,10 @@ use prone_record::measure::{Measure, broken_sentence};
 use prone_record::search::Search;
 use prone_study::watch::{self, Found, Watch};
 
-use crate::Failure;
-use crate::interrupt;
+use crate::{Failure, failure, interrupt};
+
+/// What is finished when work is to end.
+const PICTURE: &str = "this picture";
 
 /// Steps of work of one kind, with a word for it.
 const STEPS: &str = "{msg:<12} {bar:30} {pos}/{len}  {elapsed}";
@@ -30,8 +31,10 @@ impl Progress {
     pub(crate) fn new() -> Result<Self, Failure> {
         let style = |template| ProgressStyle::with_template(template).map_err(Failure::work);
         // indicatif draws on standard error, and only if that is a terminal.
+        let bar = ProgressBar::new(0);
+        interrupt::beside(&bar);
         Ok(Self {
-            bar: ProgressBar::new(0),
+            bar,
             steps: style(STEPS)?,
             search: style(SEARCH)?,
         })
@@ -40,6 +43,7 @@ impl Progress {
     /// Shows pictures of a film.
     pub(crate) fn filming(pictures: usize) -> Result<Self, Failure> {
         let progress = Self::new()?;
+        interrupt::work(PICTURE, None);
         progress.begin(pictures, "filming");
         Ok(progress)
     }
@@ -59,6 +63,7 @@ impl Progress {
 
     /// After a generation, or before the first one.
     fn searched(&self, search: &Search, measure: Measure, broken: &[Broken]) {
+        interrupt::finishing("this evaluation");
         if self.bar.length() != Some(search.allowance()) || self.bar.position() == 0 {
             self.bar.set_style(self.search.clone());
             self.bar.set_length(search.allowance());
@@ -80,12 +85,11 @@ impl Progress {
 
     /// Where nobody listens, the work goes on. The bar steps aside meanwhile.
     fn say(&self, message: &str) {
-        self.bar.suspend(|| {
-            let _ = writeln!(std::io::stderr(), "{message}");
-        });
+        self.bar.suspend(|| failure::say(message));
     }
 
     fn measuring(&self, rows: usize, taken_over: usize, journal: Option<&Path>) {
+        interrupt::finishing("this row");
         self.begin(rows, "measuring");
         if let (Some(journal), true) = (journal, taken_over > 0) {
             let journal = journal.display();
@@ -127,7 +131,15 @@ impl Watch for Progress {
 
     fn progress(&self, progress: &watch::Progress<'_>) {
         match *progress {
-            watch::Progress::Simulating(steps) => self.begin(steps, "simulating"),
+            watch::Progress::Simulating(steps) => {
+                interrupt::finishing("this simulation");
+                self.begin(steps, "simulating");
+            }
+            watch::Progress::Drawing => {
+                interrupt::finishing(PICTURE);
+                self.bar.set_message("drawing");
+                self.bar.tick();
+            }
             watch::Progress::Measuring {
                 rows,
                 taken_over,
@@ -139,14 +151,7 @@ impl Watch for Progress {
                 broken,
             } => self.searched(search, measure, broken),
             watch::Progress::Found(checkpoint, found) => self.found(checkpoint, found),
-            watch::Progress::Done(steps) => {
-                self.bar.inc(steps as u64);
-                let all = self.bar.position() == self.bar.length().unwrap_or(0);
-                if all && self.bar.message() == "simulating" {
-                    self.bar.set_message("drawing");
-                    self.bar.tick();
-                }
-            }
+            watch::Progress::Done(steps) => self.bar.inc(steps as u64),
         }
     }
 }

@@ -13,6 +13,7 @@ use prone_report::report::{Arrangement, PAGE_FILE, Report, ReportError, Source};
 use prone_thesis::chapter::Thesis;
 
 use crate::args::ReportArgs;
+use crate::outputs::{Files, Kind};
 use crate::{Failure, interrupt, record_folder};
 
 pub(crate) fn run(args: &ReportArgs) -> Result<(), Failure> {
@@ -24,13 +25,14 @@ pub(crate) fn run(args: &ReportArgs) -> Result<(), Failure> {
             Place::Folder(folder) => refuse_overlap(folder, &source.folder)?,
         }
     }
-    interrupt::listen()?;
-    match place {
-        Place::Page(file) => {
-            single_file::check_place(file).map_err(Failure::input)?;
-        }
-        Place::Folder(folder) => output::check(folder).map_err(Failure::input)?,
-    }
+    let kind = match place {
+        Place::Page(_) => Kind::Lasting,
+        Place::Folder(_) => Kind::Folder,
+    };
+    let read = sources.iter().map(|source| &source.folder);
+    let read = read.fold(Files::default(), Files::reading);
+    let files = read.writing("--out", &args.out, kind);
+    files.check_made_by("report")?;
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(args.threads.map_or(0, usize::from))
         .build()
@@ -44,15 +46,15 @@ pub(crate) fn run(args: &ReportArgs) -> Result<(), Failure> {
         .install(|| Report::from_folders(&sources, &Thesis, arrangement))
         .map_err(failure)?;
     match place {
-        Place::Page(file) => interrupt::publish(|| {
-            single_file::write(file, report.html.as_bytes()).map_err(Failure::input)
-        })?,
+        Place::Page(file) => {
+            interrupt::publish(|| Ok(single_file::write(file, report.html.as_bytes())?))?;
+        }
         Place::Folder(folder) => {
             let program = crate::program();
             let artefacts = pool
                 .install(|| report.files(&program))
                 .map_err(Failure::work)?;
-            interrupt::publish(|| output::publish(folder, &artefacts).map_err(Failure::work))?;
+            interrupt::publish(|| Ok(output::publish(folder, &artefacts)?))?;
         }
     }
     print(args, &report, &place.page())?;

@@ -11,17 +11,20 @@ use prone_thesis::summary::{CostRow, RatioRow, Summary};
 
 use crate::Failure;
 use crate::args::ReproduceArgs;
+use crate::outputs::{Files, Kind};
 use crate::plan::{OnContact, Plan, Work};
 
 pub(crate) fn plan(args: &ReproduceArgs) -> Result<Plan, Failure> {
     let files = crate::robot::files(args.robot.name())?;
     let robot = RobotText::from_files(&files);
     let recorded = files.recorded().map_err(Failure::input)?;
+    let read = recorded.iter().flat_map(|it| &it.read);
+    let read = read.fold(Files::of_robot(&files), Files::reading);
     let recorded = recorded.as_ref().map(RobotText::from_files);
     let experiment = ReproduceExperiment::new(robot, recorded, args.durations.clone());
     Ok(Plan {
         work: Work::Reproduction(Box::new(experiment)),
-        out: Some(args.out.clone()),
+        files: read.writing("--out", &args.out, Kind::Folder),
         opening: Opening::Restart,
         threads: args.threads,
         json: args.json,

@@ -8,11 +8,13 @@ use std::process::{Command, Stdio};
 
 use anyhow::anyhow;
 
+use prone_record::output;
 use prone_record::recorded;
 use prone_record::single_file;
 use prone_report::view::{self, record};
 
 use crate::args::ViewArgs;
+use crate::outputs::{Files, Kind};
 use crate::{Failure, interrupt, record_folder};
 
 /// What opens a page in the browser of the user's choice.
@@ -23,7 +25,6 @@ const OPENER: &str = if cfg!(target_os = "macos") {
 };
 
 pub(crate) fn run(args: &ViewArgs) -> Result<(), Failure> {
-    interrupt::listen()?;
     let mut runs = Vec::new();
     let folders: Vec<&Path> = [Some(&args.run), args.compare.as_ref()]
         .into_iter()
@@ -44,12 +45,17 @@ pub(crate) fn run(args: &ViewArgs) -> Result<(), Failure> {
         Some(out) => out.clone(),
         None => beside(&args.run)?,
     };
-    check_place(&out, &folders)?;
     for folder in &folders {
         record_folder::check_place(&out, folder)?;
     }
+    let read = folders.iter().flat_map(|folder| {
+        let files = recorded::FILES.map(|file| folder.join(file));
+        files.into_iter().chain([folder.join(output::RUN_FILE)])
+    });
+    let read = read.fold(Files::default(), Files::reading);
+    read.writing("--out", &out, Kind::Quick).check()?;
     let page = view::page(&runs.iter().collect::<Vec<_>>()).map_err(Failure::work)?;
-    interrupt::publish(|| single_file::write(&out, page.as_bytes()).map_err(Failure::input))?;
+    interrupt::publish(|| Ok(single_file::write(&out, page.as_bytes())?))?;
     if args.open {
         open(&out)?;
     }
@@ -91,22 +97,6 @@ fn beside(folder: &Path) -> Result<PathBuf, Failure> {
     // As the user named it, where it has a name in that.
     let named = folder.file_name().map_or(real.as_path(), |_| folder);
     Ok(named.with_file_name(file))
-}
-
-/// Refuses to write over what was read.
-fn check_place(out: &Path, folders: &[&Path]) -> Result<(), Failure> {
-    let files = folders
-        .iter()
-        .flat_map(|folder| recorded::FILES.map(|file| folder.join(file)));
-    let inputs: Vec<PathBuf> = files.collect();
-    match single_file::same_file(out, &inputs) {
-        None => Ok(()),
-        Some(input) => Err(Failure::Input(anyhow!(
-            "--out {} would overwrite {}, which was read",
-            out.display(),
-            input.display()
-        ))),
-    }
 }
 
 fn open(page: &Path) -> Result<(), Failure> {

@@ -77,7 +77,7 @@ fn a_file_goes_over_none_that_was_read() {
     let home = home();
     let args = ["compile", "robot", "--out", "robot/robot.xml"];
     let message = refused(&prone(home.path(), &args));
-    insta::assert_snapshot!(message, @"error: robot/robot.xml would overwrite robot/robot.xml, which was read");
+    insta::assert_snapshot!(message, @"error: --out robot/robot.xml would overwrite robot/robot.xml, which was read");
     let args = ["compile", "robot", "--out", "nowhere/nao.json"];
     let message = refused(&prone(home.path(), &args));
     insta::assert_snapshot!(message, @"error: cannot write nowhere/nao.json: No such file or directory (os error 2)");

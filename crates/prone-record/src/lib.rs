@@ -16,6 +16,7 @@ pub mod figure_entry;
 pub mod frontier;
 pub mod gait_search;
 pub mod head;
+pub mod leftovers;
 pub mod lock;
 pub mod measure;
 pub mod origin;

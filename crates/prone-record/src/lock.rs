@@ -10,15 +10,15 @@ use std::io;
 use std::os::unix::fs::MetadataExt as _;
 use std::path::{Path, PathBuf};
 
+use crate::leftovers::{self, Leftover};
 use crate::real_path::{NoRealPath, real_path};
 
 /// A file that is locked while this lives, and removed afterwards.
 #[derive(Debug)]
 pub struct Lock {
-    path: PathBuf,
+    held: Held,
     _file: File,
-    /// Folders above it that were made for it, the inmost first.
-    made: Vec<PathBuf>,
+    _leftover: Leftover,
 }
 
 /// Why a lock is not held.
@@ -29,13 +29,13 @@ pub enum LockError {
     Busy {
         /// What the lock keeps apart.
         what: &'static str,
-        /// The lock.
+        /// What is locked, without links.
         path: PathBuf,
     },
     /// The file system refuses.
     #[error("cannot lock {}: {source}", path.display())]
     Refused {
-        /// The lock.
+        /// What is to be locked, without links.
         path: PathBuf,
         /// Why.
         source: io::Error,
@@ -52,16 +52,7 @@ impl Lock {
     /// # Errors
     /// [`LockError`]; another `what` is [`LockError::Busy`].
     pub fn for_folder(folder: &Path, what: &'static str) -> Result<Self, LockError> {
-        let path = beside(folder)?;
-        let missing = path.ancestors().skip(1).take_while(|above| !above.exists());
-        let made: Vec<PathBuf> = missing.map(Path::to_owned).collect();
-        if let Some(above) = path.parent() {
-            fs::create_dir_all(above).map_err(|source| LockError::Refused {
-                path: path.clone(),
-                source,
-            })?;
-        }
-        Self::take(path, what, made)
+        Self::take(&real_path(folder)?, what, Above::Made)
     }
 
     /// Holds a file in the same way; its folder must exist.
@@ -69,56 +60,109 @@ impl Lock {
     /// # Errors
     /// As [`Lock::for_folder`].
     pub fn for_file(file: &Path, what: &'static str) -> Result<Self, LockError> {
-        Self::take(beside(file)?, what, Vec::new())
+        Self::take(&real_path(file)?, what, Above::Exists)
     }
 
-    fn take(path: PathBuf, what: &'static str, made: Vec<PathBuf>) -> Result<Self, LockError> {
-        let refused = |source: io::Error| LockError::Refused {
-            path: path.clone(),
-            source,
+    fn take(guarded: &Path, what: &'static str, above: Above) -> Result<Self, LockError> {
+        let held = || {
+            let path = beside(guarded);
+            let mut held = Held {
+                path,
+                made: Vec::new(),
+            };
+            if above == Above::Made {
+                let missing = held.path.ancestors().skip(1);
+                let missing = missing.take_while(|above| !above.exists());
+                held.made = missing.map(Path::to_owned).collect();
+                if let Some(above) = held.path.parent() {
+                    fs::create_dir_all(above).map_err(Some)?;
+                }
+            }
+            let taken = held.take();
+            if !matches!(taken, Ok(Some(_))) {
+                held.remove_folders();
+            }
+            Ok((taken.map_err(Some)?.ok_or(None)?, held))
         };
-        let busy = || LockError::Busy {
-            what,
-            path: path.clone(),
-        };
-        // Looked at before it is opened: opening a pipe waits for its reader.
-        if fs::symlink_metadata(&path).is_ok_and(|found| !found.is_file()) {
-            return Err(refused(io::Error::other("it is not a regular file")));
+        let made = leftovers::make(held, |(_, held): &(File, Held)| {
+            let held = held.clone();
+            move || held.remove()
+        });
+        let ((file, held), leftover) = made.map_err(|error: Option<io::Error>| {
+            let path = guarded.to_owned();
+            match error {
+                None => LockError::Busy { what, path },
+                Some(source) => LockError::Refused { path, source },
+            }
+        })?;
+        Ok(Self {
+            held,
+            _file: file,
+            _leftover: leftover,
+        })
+    }
+}
+
+/// Whether the folders above what is locked are made where they are missing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Above {
+    Made,
+    Exists,
+}
+
+/// What a lock consists of on disk.
+#[derive(Debug, Clone)]
+struct Held {
+    path: PathBuf,
+    /// Folders above it that were made for it, the inmost first.
+    made: Vec<PathBuf>,
+}
+
+impl Held {
+    /// Locks the file; `None` where another process has it.
+    fn take(&self) -> io::Result<Option<File>> {
+        // Looked at before it is opened: opening a pipe waits for its reader, and a link would lead
+        // the lock elsewhere.
+        if fs::symlink_metadata(&self.path).is_ok_and(|found| !found.is_file()) {
+            return Err(io::Error::other(
+                "what stands in the place of its lock is not a regular file",
+            ));
         }
         let file = OpenOptions::new()
             .write(true)
             .create(true)
             .truncate(false)
-            .open(&path)
-            .map_err(refused)?;
-        if !try_exclusive(&file).map_err(refused)? {
-            return Err(busy());
+            .open(&self.path)?;
+        if !try_exclusive(&file)? {
+            return Ok(None);
         }
         // Whoever had it may have removed it since it was opened.
-        let ours = file.metadata().map_err(refused)?;
-        match fs::metadata(&path) {
-            Ok(named) if (named.dev(), named.ino()) == (ours.dev(), ours.ino()) => {}
-            _ => return Err(busy()),
+        let ours = file.metadata()?;
+        let same = fs::metadata(&self.path)
+            .is_ok_and(|named| (named.dev(), named.ino()) == (ours.dev(), ours.ino()));
+        Ok(same.then_some(file))
+    }
+
+    /// Removes it, locked as it is. One that stays is taken over by the next.
+    fn remove(&self) {
+        // Ours is empty.
+        if fs::metadata(&self.path).is_ok_and(|found| found.len() == 0) {
+            let _ = fs::remove_file(&self.path);
         }
-        Ok(Self {
-            path,
-            _file: file,
-            made,
-        })
+        self.remove_folders();
+    }
+
+    fn remove_folders(&self) {
+        for folder in &self.made {
+            // One that holds a result by now is not empty, and stays.
+            let _ = fs::remove_dir(folder);
+        }
     }
 }
 
 impl Drop for Lock {
     fn drop(&mut self) {
-        // Ours is empty. Still locked, so that it is nobody else's. One that stays is taken over by
-        // the next.
-        if fs::metadata(&self.path).is_ok_and(|found| found.len() == 0) {
-            let _ = fs::remove_file(&self.path);
-        }
-        for folder in &self.made {
-            // One that holds a result by now is not empty, and stays.
-            let _ = fs::remove_dir(folder);
-        }
+        self.held.remove();
     }
 }
 
@@ -132,12 +176,12 @@ pub(crate) fn try_exclusive(file: &File) -> io::Result<bool> {
     }
 }
 
-fn beside(guarded: &Path) -> Result<PathBuf, NoRealPath> {
-    let real = real_path(guarded)?;
+/// The lock of a path without links.
+fn beside(guarded: &Path) -> PathBuf {
     let mut name = OsString::from(".");
-    name.push(real.file_name().unwrap_or_default());
+    name.push(guarded.file_name().unwrap_or_default());
     name.push(".prone.lock");
-    Ok(real.with_file_name(name))
+    guarded.with_file_name(name)
 }
 
 #[cfg(test)]
@@ -170,7 +214,7 @@ mod tests {
         symlink("there", at("link")).unwrap();
         let held = Lock::for_folder(&at("there"), "search").unwrap();
         let other = Lock::for_folder(&at("link"), "search").unwrap_err();
-        let path = at(".there.prone.lock").display().to_string();
+        let path = at("there").canonicalize().unwrap().display().to_string();
         assert_eq!(
             other.to_string(),
             format!("another search is at work: it holds {path}")
@@ -191,7 +235,7 @@ mod tests {
         fs::create_dir(home.path().join(".map.csv.prone.lock")).unwrap();
         let refused = Lock::for_file(&home.path().join("map.csv"), "test").unwrap_err();
         assert!(
-            refused.to_string().ends_with("it is not a regular file"),
+            refused.to_string().ends_with("is not a regular file"),
             "{refused}"
         );
     }

@@ -137,6 +137,11 @@ pub fn result_with(folder: &Path) -> Option<PathBuf> {
     result.map(Path::to_owned)
 }
 
+/// The command of which a folder is the result, as its [`RUN_FILE`] says.
+pub fn command_of(folder: &Path) -> Option<String> {
+    earlier::command(folder)
+}
+
 /// The same error without the hidden name of a file or folder in which something was to be made: a
 /// user knows the name that it would have got.
 pub fn without_hidden_name(error: &io::Error) -> io::Error {

@@ -124,7 +124,7 @@ pub enum ResumptionError {
         path: PathBuf,
         /// What it should be.
         work: Work,
-        /// The first entry that differs, with those that it is in.
+        /// The most telling entry that differs, with those that it is in.
         key: String,
         /// Its value in the file.
         then: Value,
@@ -307,11 +307,9 @@ impl Place {
 
     fn check_head(&self, line: &str) -> Result<(), ResumptionError> {
         let head: Head = serde_json::from_str(line).map_err(|_| self.damaged(1, line))?;
-        let works = [head.work.as_str(), self.work.name()].map(Value::from);
-        let [then, now] = &works;
-        let found =
-            difference("work", then, now).or_else(|| difference("", &head.plan, &self.plan));
-        match found {
+        let [then, now] = [head.work.as_str(), self.work.name()].map(Value::from);
+        let other_work = (then != now).then(|| ("work".to_owned(), then, now));
+        match other_work.or_else(|| difference(&head.plan, &self.plan)) {
             None => Ok(()),
             Some((key, then, now)) => Err(ResumptionError::OtherPlan {
                 path: self.path.clone(),
@@ -427,25 +425,61 @@ fn old_format(bytes: &[u8]) -> Option<String> {
     (read.plan.program == "prone").then(|| "the first format of checkpoints".to_owned())
 }
 
-/// The first place where two plans differ: its name with those around it, then, now.
-fn difference(name: &str, then: &Value, now: &Value) -> Option<(String, Value, Value)> {
+/// Entries of a plan, by how much they tell: of two plans that differ in many places, what was asked
+/// for comes before what follows from it, such as a bound that the robot or the objective sets.
+const TELLING: [&str; 15] = [
+    "command",
+    "program",
+    "objective",
+    "source",
+    "robot",
+    "robot sha256",
+    "solver",
+    "seed",
+    "runs",
+    "from",
+    "bases",
+    "base_sha256",
+    "form",
+    "ends",
+    "held",
+];
+
+/// An entry in which two plans differ: its name with those around it, then, now.
+type Difference = (String, Value, Value);
+
+/// The most telling entry in which two plans differ.
+fn difference(then: &Value, now: &Value) -> Option<Difference> {
+    let mut all = Vec::new();
+    differences("", then, now, &mut all);
+    // The first of those that tell as much.
+    all.into_iter().min_by_key(|(path, _, _)| {
+        let mut parts = path.split('.');
+        let rank = |part| TELLING.iter().position(|telling| *telling == part);
+        let rank = parts.clone().filter_map(rank).min();
+        // A name follows from the objective where none is given.
+        let usual = TELLING.len() + usize::from(parts.any(|part| part == "name"));
+        rank.unwrap_or(usual)
+    })
+}
+
+fn differences(path: &str, then: &Value, now: &Value, all: &mut Vec<Difference>) {
     if then == now {
-        return None;
+        return;
     }
-    if let (Value::Object(old), Value::Object(new)) = (then, now) {
-        let inner = |key: &String| {
-            let path = match name {
-                "" => key.clone(),
-                around => format!("{around}.{key}"),
-            };
-            let [old, new] = [old, new].map(|map| map.get(key).unwrap_or(&Value::Null));
-            difference(&path, old, new)
+    let (Value::Object(old), Value::Object(new)) = (then, now) else {
+        all.push((path.to_owned(), then.clone(), now.clone()));
+        return;
+    };
+    let added = new.keys().filter(|key| !old.contains_key(*key));
+    for key in old.keys().chain(added) {
+        let path = match path {
+            "" => key.clone(),
+            around => format!("{around}.{key}"),
         };
-        if let Some(found) = old.keys().chain(new.keys()).find_map(inner) {
-            return Some(found);
-        }
+        let [old, new] = [old, new].map(|map| map.get(key).unwrap_or(&Value::Null));
+        differences(&path, old, new, all);
     }
-    Some((name.to_owned(), then.clone(), now.clone()))
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@
 //! row k is the mean over control step k, stamped with its end.
 //!
 //! [`run`] does all of it. A search that simulates many gaits with one first pose settles once
-//! ([`settle`]) and goes on from there as often as it likes ([`proceed`]), to the same bits.
+//! ([`settle`]) and goes on from there as often as it likes ([`proceed_unless`]), to the same bits.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -121,6 +121,23 @@ pub enum PullError {
         /// The posture's name.
         posture: String,
     },
+    /// The user stopped it.
+    #[error("stopped")]
+    Stopped,
+}
+
+impl PullError {
+    /// Of a pull that broke down, or was stopped, on its way.
+    pub fn in_simulation(gait: &Gait, duration: PhaseDuration, source: SimulationError) -> Self {
+        match source {
+            SimulationError::Stopped => Self::Stopped,
+            source @ SimulationError::Diverged { .. } => Self::Simulation {
+                gait: gait.name.clone(),
+                duration_s: duration.seconds(),
+                source,
+            },
+        }
+    }
 }
 
 /// The trajectory that [`run`] commands: one sample per control step.
@@ -146,15 +163,26 @@ pub fn run(
     start: Start,
     keep: Keep,
 ) -> Result<Pull, PullError> {
+    run_unless(&|| false, world, gait, duration, start, keep)
+}
+
+/// The same, ended at once when `stopped` says so.
+///
+/// # Errors
+/// [`PullError`]; [`PullError::Stopped`] where it was stopped.
+pub fn run_unless(
+    stopped: &dyn Fn() -> bool,
+    world: &World,
+    gait: &Gait,
+    duration: PhaseDuration,
+    start: Start,
+    keep: Keep,
+) -> Result<Pull, PullError> {
     let trajectory = plan(world, gait, duration)?;
     let placement = placement(world, &trajectory, start)?;
-    let broken = |source| PullError::Simulation {
-        gait: gait.name.clone(),
-        duration_s: duration.seconds(),
-        source,
-    };
-    let settled = settle(world, &placement).map_err(broken)?;
-    proceed(settled, trajectory, keep).map_err(broken)
+    let broken = |source| PullError::in_simulation(gait, duration, source);
+    let settled = settle_unless(stopped, world, &placement).map_err(broken)?;
+    proceed_unless(stopped, settled, trajectory, keep).map_err(broken)
 }
 
 /// How the robot is laid down before the phase.
@@ -192,15 +220,35 @@ pub fn placement(
 
 /// Lays the robot down and lets the servos hold it for [`SETTLE`].
 pub fn settle(world: &World, placement: &Placement) -> Result<Simulation, SimulationError> {
+    settle_unless(&|| false, world, placement)
+}
+
+/// The same, ended at once when `stopped` says so.
+///
+/// # Errors
+/// [`SimulationError`]; [`SimulationError::Stopped`] where it was stopped.
+pub fn settle_unless(
+    stopped: &dyn Fn() -> bool,
+    world: &World,
+    placement: &Placement,
+) -> Result<Simulation, SimulationError> {
     let mut simulation = Simulation::new(world, placement);
     for _ in 0..whole_steps(SETTLE) {
+        if stopped() {
+            return Err(SimulationError::Stopped);
+        }
         simulation.control_step()?;
     }
     Ok(simulation)
 }
 
-/// Commands a trajectory made by [`plan`] from where the robot is.
-pub fn proceed(
+/// Commands a trajectory made by [`plan`] from where the robot is, and ends at once when `stopped` says
+/// so.
+///
+/// # Errors
+/// As [`settle_unless`].
+pub fn proceed_unless(
+    stopped: &dyn Fn() -> bool,
     mut simulation: Simulation,
     trajectory: CheckedTrajectory,
     keep: Keep,
@@ -217,6 +265,9 @@ pub fn proceed(
     let mut snapshots = Vec::with_capacity(pictures);
     let mut rows = Vec::with_capacity(steps);
     for (k, sample) in trajectory.samples()[..steps].iter().enumerate() {
+        if stopped() {
+            return Err(SimulationError::Stopped);
+        }
         while snapshots.len() < pictures && due(snapshots.len(), pictures, steps) <= k {
             snapshots.push(simulation.snapshot());
         }

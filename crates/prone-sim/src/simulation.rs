@@ -65,6 +65,9 @@ pub enum SimulationError {
         /// Time since the run began, s.
         time_s: f64,
     },
+    /// The user stopped it.
+    #[error("stopped")]
+    Stopped,
 }
 
 impl Simulation {

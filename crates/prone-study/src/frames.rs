@@ -10,6 +10,8 @@ use prone_sim::{Snapshot, World};
 
 use prone_report::figures::{Figure, FigureError, raster};
 
+use crate::watch::Watch;
+
 /// Size of one frame, pixels.
 const FRAME: (usize, usize) = (800, 300);
 
@@ -33,6 +35,9 @@ pub enum FramesError {
     /// The instants cannot be written on it.
     #[error(transparent)]
     Labels(#[from] FigureError),
+    /// [`Watch::stop`] said so.
+    #[error("stopped")]
+    Stopped,
 }
 
 /// Frames of one gait.
@@ -50,6 +55,7 @@ pub fn of(
     gait: &str,
     duration_s: f64,
     snapshots: &[Snapshot],
+    watch: &dyn Watch,
 ) -> Result<Frames, FramesError> {
     let scale = camera::scale(world.robot());
     let middle = snapshots
@@ -62,10 +68,13 @@ pub fn of(
         vertical_fov: FIELD_OF_VIEW,
         ..Camera::right_side(middle, scale)
     };
-    let pictures: Vec<Picture> = snapshots
-        .par_iter()
-        .map(|snapshot| camera::ray_cast(&mut world.at(snapshot), &camera, FRAME))
-        .collect();
+    let picture = |snapshot| {
+        unless(watch, || {
+            camera::ray_cast(&mut world.at(snapshot), &camera, FRAME)
+        })
+    };
+    let pictures = snapshots.par_iter().map(picture);
+    let pictures: Vec<Picture> = pictures.collect::<Result<_, FramesError>>()?;
     let percents: Vec<String> = (0..snapshots.len())
         .map(|index| format!("{} %", index * 100 / (snapshots.len() - 1).max(1)))
         .collect();
@@ -94,6 +103,7 @@ pub fn start(
     gait: &str,
     posture: &str,
     snapshot: &Snapshot,
+    watch: &dyn Watch,
 ) -> Result<Frames, FramesError> {
     let figure = Figure {
         stem: format!("fig-22-{gait}-start"),
@@ -110,7 +120,19 @@ pub fn start(
             .to_owned(),
         svg: String::new(),
     };
-    stacked(&[from_the_right(world, snapshot)], &[String::new()], figure)
+    let picture = unless(watch, || from_the_right(world, snapshot))?;
+    stacked(&[picture], &[String::new()], figure)
+}
+
+/// Takes a picture, unless the work is to end.
+pub(crate) fn unless(
+    watch: &dyn Watch,
+    take: impl FnOnce() -> Picture,
+) -> Result<Picture, FramesError> {
+    if watch.stop() {
+        return Err(FramesError::Stopped);
+    }
+    Ok(take())
 }
 
 /// Pictures of one size, one below the other, each with its label in the corner, as the drawing of a
@@ -134,8 +156,12 @@ pub(crate) fn stacked(
 }
 
 /// One larger picture, for a title page.
-pub fn cover(world: &World, snapshot: &Snapshot) -> Result<Vec<u8>, FramesError> {
-    Ok(from_the_right(world, snapshot).png()?)
+pub fn cover(
+    world: &World,
+    snapshot: &Snapshot,
+    watch: &dyn Watch,
+) -> Result<Vec<u8>, FramesError> {
+    Ok(unless(watch, || from_the_right(world, snapshot))?.png()?)
 }
 
 fn from_the_right(world: &World, snapshot: &Snapshot) -> Picture {

@@ -151,19 +151,11 @@ impl Session {
             Experiment::Passage(it) => Outcome::Passage(Box::new(self.passage(it, watch)?)),
             Experiment::Cost(it) => {
                 let robot = LoadedRobot::load(it.robot.files()?)?;
-                let cost = search::cost(it, &robot)?;
-                if watch.stop() {
-                    return Err(RunError::Stopped);
-                }
-                Outcome::Cost(Box::new(cost))
+                Outcome::Cost(Box::new(search::cost(it, &robot, watch)?))
             }
             Experiment::CycleCost(it) => {
                 let robot = LoadedRobot::load(it.robot.files()?)?;
-                let cost = costed_cycle::cost(it, &robot)?;
-                if watch.stop() {
-                    return Err(RunError::Stopped);
-                }
-                Outcome::CycleCost(Box::new(cost))
+                Outcome::CycleCost(Box::new(costed_cycle::cost(it, &robot, watch)?))
             }
             Experiment::PullSearch(it) => Outcome::Search(Box::new(self.pull_search(it, watch)?)),
             Experiment::CycleSearch(it) => Outcome::Search(Box::new(self.cycle_search(it, watch)?)),
@@ -254,7 +246,8 @@ impl Session {
                 summary: &summary,
             };
             let ranges = &*self.joint_ranges;
-            let mut files = pool.install(|| record::files(&recording, &self.program, &ranges))?;
+            let mut files =
+                pool.install(|| record::files(&recording, &self.program, &ranges, watch))?;
             let threads = pool.current_num_threads();
             let timing = timing(started, threads, crawl.engine_steps)?;
             files.insert("timing.json".into(), timing);
@@ -310,7 +303,8 @@ impl Session {
             return Err(RunError::Stopped);
         }
         if let (Some(asked), true) = (experiment.search, passage.may_be_searched()) {
-            let searched = passage::candidates(&robot, &cycles, under.height - under.margin)?;
+            let searched =
+                passage::candidates(&robot, &cycles, under.height - under.margin, watch)?;
             let found = pool.install(|| passage::search(asked, &searched, ceiling_mm, watch))?;
             if let Some(cycle) = found {
                 let offered = Offered {
@@ -363,7 +357,8 @@ impl Session {
             return Err(RunError::Stopped);
         }
         let keep = Keep::Shown { pictures: 0 };
-        let pull = pull::run(&world, &gait, duration, Start::FirstPose, keep)?;
+        let stopped = || watch.stop();
+        let pull = pull::run_unless(&stopped, &world, &gait, duration, Start::FirstPose, keep)?;
         let recording = PullRecording {
             command: Command::Pull,
             robot: &robot,

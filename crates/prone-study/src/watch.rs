@@ -8,7 +8,7 @@ use prone_record::search::Search;
 
 /// Is told how work goes, from many threads, and may end it.
 pub trait Watch: Sync {
-    /// Whether to begin nothing further.
+    /// Whether to begin nothing further; once it is so, it stays so.
     fn stop(&self) -> bool;
 
     /// What has been done since the last call.
@@ -27,8 +27,10 @@ pub trait Watch: Sync {
 /// How work goes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Progress<'a> {
-    /// Simulations begin, so many in all; pictures are made after them.
+    /// Simulations begin, so many in all.
     Simulating(usize),
+    /// What was simulated is drawn.
+    Drawing,
     /// Rows of a torque map begin.
     Measuring {
         /// Rows in all.

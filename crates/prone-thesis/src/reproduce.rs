@@ -123,6 +123,8 @@ impl ReproduceError {
         matches!(
             self,
             Self::Run(RunError::Stopped)
+                | Self::Frames(FramesError::Stopped)
+                | Self::Record(RecordError::Frames(FramesError::Stopped))
                 | Self::Study(StudyError::Stopped | StudyError::Crawl(CrawlError::Stopped))
         )
     }
@@ -267,13 +269,22 @@ fn pictures(
     info: &RunInfo,
     table_result: Option<&TableResult>,
     artefacts: &mut Artefacts,
+    watch: &dyn Watch,
 ) -> Result<FigureList, ReproduceError> {
+    watch.progress(&Progress::Drawing);
     let photographed = study
         .shown
         .par_iter()
         .map(|(gait, pull)| {
             let number = frames_number(&gait.name);
-            frames::of(world, number, &gait.name, study.showcase_s, &pull.snapshots)
+            frames::of(
+                world,
+                number,
+                &gait.name,
+                study.showcase_s,
+                &pull.snapshots,
+                watch,
+            )
         })
         .collect::<Result<Vec<_>, _>>()?;
     let mut list = FigureList::default();
@@ -281,9 +292,12 @@ fn pictures(
         && let Some(first) = pull.snapshots.first()
         && let Some(middle) = pull.snapshots.get(pull.snapshots.len() / 2)
     {
-        let start = frames::start(world, &gait.name, &info.options.start_posture, first)?;
+        let start = frames::start(world, &gait.name, &info.options.start_posture, first, watch)?;
         list.picture(artefacts, start.figure, start.png);
-        artefacts.insert("figures/crawl.png".into(), frames::cover(world, middle)?);
+        artefacts.insert(
+            "figures/crawl.png".into(),
+            frames::cover(world, middle, watch)?,
+        );
     }
     for frames in photographed {
         list.picture(artefacts, frames.figure, frames.png);
@@ -294,7 +308,7 @@ fn pictures(
             .cycles
             .first()
             .map_or("", |cycle| cycle.gait.as_str());
-        for frames in crawl::frames::on_its_way(world, gait, longest)? {
+        for frames in crawl::frames::on_its_way(world, gait, longest, watch)? {
             list.picture(artefacts, frames.figure, frames.png);
         }
     }
@@ -393,10 +407,19 @@ impl Study<'_> {
             artefacts.extend(crawl_record(crawler, table, result, program)?);
         }
 
-        let list = pictures(&world, &study, &info, table_result.as_ref(), &mut artefacts)?;
+        let list = pictures(
+            &world,
+            &study,
+            &info,
+            table_result.as_ref(),
+            &mut artefacts,
+            watch,
+        )?;
         list.finish(&mut artefacts)?;
         // The drawings are those of the report, made from the records as they will be read again.
+        go_on(watch)?;
         let report = Report::from_artefacts(OWN_NAME, &artefacts, &Thesis, Arrangement::Chapter)?;
+        go_on(watch)?;
         artefacts.extend(report.figures()?);
         artefacts.insert(PAGE_FILE.into(), report.html.into_bytes());
         let crawling = table_result.map_or(0, |result| result.engine_steps);
@@ -406,6 +429,14 @@ impl Study<'_> {
             engine_steps: study.engine_steps + crawling + beside.map_or(0, |it| it.engine_steps),
         })
     }
+}
+
+/// Fails where the work is to end.
+fn go_on(watch: &dyn Watch) -> Result<(), RunError> {
+    if watch.stop() {
+        return Err(RunError::Stopped);
+    }
+    Ok(())
 }
 
 /// Number of the figure that shows the robot over a pull; of an unknown gait, the first one's.

@@ -129,7 +129,13 @@ fn run_jobs(
             if watch.stop() {
                 return Err(StudyError::Stopped);
             }
-            let pull = pull::run(world, &job.gait, job.duration, Start::Recorded, job.keep())?;
+            let (gait, duration, keep) = (&job.gait, job.duration, job.keep());
+            let stopped = || watch.stop();
+            let pull = pull::run_unless(&stopped, world, gait, duration, Start::Recorded, keep);
+            let pull = pull.map_err(|error| match error {
+                PullError::Stopped => StudyError::Stopped,
+                error => StudyError::Pull(error),
+            })?;
             watch.progress(&Progress::Done(1));
             Ok(pull)
         })

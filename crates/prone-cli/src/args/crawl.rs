@@ -40,9 +40,8 @@ manufacturer's effort and joint limits on. The verdict says whether the motors o
 it: continuous, limited (for minutes), or not on a robot. The robot starts with its foremost point at
 x = 0; a plate of --ceiling-mm begins 50 mm ahead. The record folder appears when all is done, and
 replaces an earlier result in one step; all its files but timing.json are the same, byte for byte, for
-the same input, on any number of threads. Ctrl-C ends the simulation at once; pictures of a record
-that are being drawn are finished before the program ends. In both cases nothing is written. A second
-Ctrl-C ends the program at once.")]
+the same input, on any number of threads. Ctrl-C ends it within two seconds, and nothing is written.
+A second one ends the program at once.")]
 #[expect(
     clippy::struct_excessive_bools,
     reason = "each is a switch of the command line"

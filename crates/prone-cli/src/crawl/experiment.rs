@@ -12,9 +12,10 @@ use prone_record::experiment::{
 use crate::Failure;
 use crate::args::{CrawlRunArgs, ServoName};
 use crate::gait::find_cycle;
+use crate::outputs::Files;
 
-/// What was typed, with the texts of all files that it names.
-pub(super) fn of(args: &CrawlRunArgs) -> Result<CrawlExperiment, Failure> {
+/// What was typed, with the texts of all files that it names; and which these are.
+pub(super) fn of(args: &CrawlRunArgs) -> Result<(CrawlExperiment, Files), Failure> {
     let draws_nothing =
         args.joint_offset_deg.is_none() && args.uphill.is_none() && args.late_commands_ms.is_none();
     if args.seed.is_some() && draws_nothing {
@@ -28,7 +29,17 @@ pub(super) fn of(args: &CrawlRunArgs) -> Result<CrawlExperiment, Failure> {
         Ok(GaitText::new(&gait.file, &gait.text))
     };
     let gait = find(args.gait.name())?;
-    Ok(CrawlExperiment {
+    let named = args.gait.name().to_owned();
+    let named = std::iter::once(&named).chain(&args.uphill);
+    let mut read = Files::of_robot(&files).reading_gaits(&files.gaits, named);
+    if let Some(scene) = args
+        .scene
+        .as_deref()
+        .filter(|it| shipped::scene_text(it).is_none())
+    {
+        read = read.reading(scene);
+    }
+    let experiment = CrawlExperiment {
         uphill: args.uphill.as_deref().map(find).transpose()?,
         scene: scene(args)?,
         ending: if args.until_past {
@@ -58,7 +69,8 @@ pub(super) fn of(args: &CrawlRunArgs) -> Result<CrawlExperiment, Failure> {
             Detail::Sums
         },
         ..CrawlExperiment::new(RobotText::from_files(&files), gait)
-    })
+    };
+    Ok((experiment, read))
 }
 
 fn steering(args: &CrawlRunArgs) -> SteeringChoice {

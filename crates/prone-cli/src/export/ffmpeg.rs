@@ -1,22 +1,30 @@
 //! mp4 by the `ffmpeg` that is installed: raw pictures go into its standard input.
 //!
 //! It writes to a hidden file beside the target, which takes the target's place when all is done
-//! and goes with this value otherwise. It does not hear the terminal's Ctrl-C: this program ends it.
+//! and goes with this value otherwise. It does not hear the terminal's Ctrl-C: this program ends it,
+//! also where it is ended at once itself ([`leftovers`]).
 
 use std::fs::File;
 use std::io::{Read as _, Seek as _, Write as _};
 use std::os::unix::process::CommandExt as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
+use std::thread;
+use std::time::Duration;
 
-use anyhow::{Context as _, anyhow};
-use tempfile::NamedTempFile;
+use anyhow::anyhow;
+use rustix::process::{Pid, Signal, kill_process};
 
+use prone_record::leftovers::{self, Leftover};
 use prone_record::output::without_hidden_name;
+use prone_record::single_file::HiddenFile;
 use prone_sim::camera::Picture;
 use prone_study::export::film::{Reel, Shot};
 
-use crate::Failure;
+use crate::{Failure, interrupt};
+
+/// Time between two looks at whether it has ended.
+const GLANCE: Duration = Duration::from_millis(20);
 
 /// Quality of the encoder, 0 to 51, smaller is better: its own middle is 23, which shows on the thin
 /// lines of the floor.
@@ -24,18 +32,33 @@ const QUALITY: &str = "20";
 
 /// A running ffmpeg.
 pub(super) struct Ffmpeg {
-    child: Child,
+    process: Process,
     said: File,
-    file: NamedTempFile,
+    // Removed when the process has ended.
+    file: HiddenFile,
+    /// Where the film goes, as it was named.
+    out: PathBuf,
+}
+
+/// A child that is ended with this value.
+struct Process {
+    child: Child,
+    running: Option<Leftover>,
 }
 
 impl Ffmpeg {
     /// Starts it.
     pub(super) fn start(out: &Path, shot: &Shot) -> Result<Self, Failure> {
-        let (file, said) = files(out).map_err(Failure::Work)?;
+        let file = HiddenFile::beside(out, ".mp4")?;
+        let said = tempfile::tempfile();
+        let said = said.map_err(|error| {
+            let reason = without_hidden_name(&error);
+            Failure::Work(anyhow!("cannot keep what ffmpeg says: {reason}"))
+        })?;
         let (width, height) = shot.size;
         let stderr = said.try_clone().map_err(Failure::work)?;
-        let started = Command::new("ffmpeg")
+        let mut ffmpeg = Command::new("ffmpeg");
+        ffmpeg
             .args(["-hide_banner", "-loglevel", "error", "-nostdin", "-y"])
             .args(["-f", "rawvideo", "-pix_fmt", "rgb24"])
             .args(["-s", &format!("{width}x{height}")])
@@ -48,10 +71,27 @@ impl Ffmpeg {
             .stdin(Stdio::piped())
             .stdout(Stdio::null())
             .stderr(stderr)
-            .process_group(0)
-            .spawn();
+            .process_group(0);
+        let started = leftovers::make(
+            || ffmpeg.spawn(),
+            |child| {
+                let child = Pid::from_child(child);
+                // Struck off the list as soon as it is reaped: until then its number is its own.
+                move || {
+                    let _ = kill_process(child, Signal::KILL);
+                }
+            },
+        );
         match started {
-            Ok(child) => Ok(Self { child, said, file }),
+            Ok((child, running)) => Ok(Self {
+                process: Process {
+                    child,
+                    running: Some(running),
+                },
+                said,
+                file,
+                out: out.to_owned(),
+            }),
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
                 Err(Failure::Work(anyhow!(
                     "mp4 is made by ffmpeg, which is not on PATH: install it (Debian: apt-get \
@@ -62,17 +102,20 @@ impl Ffmpeg {
         }
     }
 
-    /// Waits until the file is complete.
-    pub(super) fn finish(mut self) -> Result<NamedTempFile, Failure> {
-        drop(self.child.stdin.take());
-        let status = self.child.wait().map_err(Failure::work)?;
-        if !status.success() {
-            return Err(Failure::Work(self.complaint()));
+    /// Waits until the file is complete, and gives it, unless the work is to end.
+    pub(super) fn finish(mut self) -> Result<HiddenFile, Failure> {
+        drop(self.process.child.stdin.take());
+        // Looked at, not waited for, while it may have to be ended.
+        loop {
+            if interrupt::requested() {
+                return Err(Failure::Stopped);
+            }
+            match self.process.ended().map_err(Failure::work)? {
+                None => thread::sleep(GLANCE),
+                Some(true) => return Ok(self.file),
+                Some(false) => return Err(Failure::Work(self.complaint())),
+            }
         }
-        self.file.as_file().sync_all().map_err(Failure::work)?;
-        // The rest of this value ends a process that is not there any more.
-        let placeholder = tempfile::Builder::new().tempfile().map_err(Failure::work)?;
-        Ok(std::mem::replace(&mut self.file, placeholder))
     }
 
     /// What ffmpeg itself says, its last line.
@@ -81,12 +124,27 @@ impl Ffmpeg {
         let _ = self.said.rewind();
         let _ = self.said.read_to_string(&mut text);
         let line = text.trim().lines().next_back().unwrap_or("it says nothing");
+        // It knows the hidden file only.
+        let hidden = self.file.path().display().to_string();
+        let line = line.replace(&hidden, &self.out.display().to_string());
         anyhow!("ffmpeg failed: {line}")
     }
 }
 
-impl Drop for Ffmpeg {
+impl Process {
+    /// Whether it has ended well, if it has ended.
+    fn ended(&mut self) -> std::io::Result<Option<bool>> {
+        let ended = self.child.try_wait()?;
+        if ended.is_some() {
+            self.running = None;
+        }
+        Ok(ended.map(|status| status.success()))
+    }
+}
+
+impl Drop for Process {
     fn drop(&mut self) {
+        self.running = None;
         // It may have ended by itself.
         let _ = self.child.kill();
         let _ = self.child.wait();
@@ -102,34 +160,15 @@ impl Reel for Ffmpeg {
     }
 
     fn take(&mut self, frame: Vec<u8>) -> Result<(), anyhow::Error> {
-        let Some(input) = &mut self.child.stdin else {
+        let Some(input) = &mut self.process.child.stdin else {
             return Ok(());
         };
         if input.write_all(&frame).is_err() {
             // It has gone, and says why.
-            let _ = self.child.wait();
+            drop(self.process.child.stdin.take());
+            let _ = self.process.child.wait();
             return Err(self.complaint());
         }
         Ok(())
     }
-}
-
-/// Where the film and the complaints go.
-fn files(out: &Path) -> Result<(NamedTempFile, File), anyhow::Error> {
-    let folder = match out.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
-    let permissions = std::os::unix::fs::PermissionsExt::from_mode(0o666);
-    let file = tempfile::Builder::new()
-        .prefix(".prone-")
-        .suffix(".mp4")
-        .permissions(permissions)
-        .tempfile_in(folder)
-        .map_err(|error| {
-            let reason = without_hidden_name(&error);
-            anyhow!("cannot write {}: {reason}", out.display())
-        })?;
-    let said = tempfile::tempfile().context("cannot keep what ffmpeg says")?;
-    Ok((file, said))
 }

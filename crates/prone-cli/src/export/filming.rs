@@ -11,7 +11,7 @@ use prone_study::export::gif_film::{self, GifReel};
 use prone_study::export::webp_film::WebpReel;
 
 use super::ffmpeg::Ffmpeg;
-use super::{cannot_write, origin};
+use super::origin;
 use crate::args::{ExportArgs, Format, ViewName};
 use crate::progress::Progress;
 use crate::{Failure, interrupt};
@@ -43,10 +43,7 @@ pub(super) fn run(args: &ExportArgs, record: &Recorded, out: &Path) -> Result<St
             let mut reel = Ffmpeg::start(out, &shot)?;
             shoot(&film, &mut reel)?;
             let file = reel.finish()?;
-            interrupt::publish(|| {
-                let persisted = file.persist(out).map(drop);
-                persisted.map_err(|error| cannot_write(out, &error.error))
-            })?;
+            interrupt::publish(|| Ok(file.put()?))?;
         }
     }
     let (width, height) = shot.size;
@@ -72,7 +69,7 @@ where
 }
 
 fn put(out: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    interrupt::publish(|| single_file::write(out, bytes).map_err(Failure::work))
+    interrupt::publish(|| Ok(single_file::write(out, bytes)?))
 }
 
 fn shot(args: &ExportArgs, record: &Recorded) -> Result<Shot, Failure> {

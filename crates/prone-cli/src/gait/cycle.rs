@@ -1,7 +1,6 @@
 //! `prone gait show` of a whole cycle: its pull, then the way back.
 
 use std::io::Write;
-use std::path::PathBuf;
 
 use anyhow::anyhow;
 use serde_json::json;
@@ -15,12 +14,11 @@ use prone_study::gait_sheet::{self, GaitSheet};
 use crate::Failure;
 use crate::args::GaitShowArgs;
 
-/// Shows a cycle on a robot; `inputs` are the files that were read.
+/// Shows a cycle on a robot.
 pub(super) fn show(
     args: &GaitShowArgs,
     loaded: &LoadedRobot,
     source: &GaitSource,
-    inputs: &[PathBuf],
 ) -> Result<(), Failure> {
     let cycle = &source.cycle;
     let robot = loaded.robot();
@@ -28,7 +26,7 @@ pub(super) fn show(
         .map_err(|error| Failure::input(source.refused(&error)))?;
     let sheet = sheet(args, cycle, robot)?;
     match (&args.csv, &sheet) {
-        (Some(path), Some(sheet)) => super::write_csv(sheet, path, inputs)?,
+        (Some(path), Some(sheet)) => super::write_csv(sheet, path)?,
         (Some(_), None) => {
             return Err(Failure::Input(anyhow!(
                 "{} has no pull: --csv writes the table of one",

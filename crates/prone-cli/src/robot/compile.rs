@@ -12,7 +12,8 @@ use prone_record::single_file;
 use prone_sim::LoadedRobot;
 
 use crate::args::RobotCompileArgs;
-use crate::{Failure, robot};
+use crate::outputs::{Files, Kind};
+use crate::{Failure, interrupt, robot};
 
 pub(crate) fn run(args: &RobotCompileArgs) -> Result<(), Failure> {
     let loaded = robot::load(args.robot.name())?;
@@ -24,7 +25,7 @@ pub(crate) fn run(args: &RobotCompileArgs) -> Result<(), Failure> {
             Failure::Input(anyhow!("{folder} cannot be compiled: {violation}"))
         })?;
     let text = compiled.text();
-    single_file::write(&out, text.as_bytes()).map_err(Failure::input)?;
+    interrupt::publish(|| Ok(single_file::write(&out, text.as_bytes())?))?;
     say(args, &out, &compiled)
 }
 
@@ -55,13 +56,8 @@ fn place(args: &RobotCompileArgs, loaded: &LoadedRobot) -> Result<PathBuf, Failu
         }
         None => Path::new(&files.folder).join(compiled_robot::FILE_NAME),
     };
-    if let Some(input) = single_file::same_file(&out, &files.read) {
-        return Err(Failure::Input(anyhow!(
-            "{} would overwrite {}, which was read",
-            out.display(),
-            input.display()
-        )));
-    }
+    let read = Files::of_robot(files);
+    read.writing("--out", &out, Kind::Quick).check()?;
     let own = Path::new(&files.folder).join(compiled_robot::FILE_NAME);
     let is_own = !files.read.is_empty() && single_file::same_file(&out, &[own]).is_some();
     if !is_own && is_of_another_kind(&out)? {

@@ -3,25 +3,16 @@
 use std::io::Write;
 use std::path::Path;
 
-use anyhow::anyhow;
-
 use prone_record::experiment::{Experiment, MapSource, RobotText, TorqueMapExperiment};
-use prone_record::single_file;
 use prone_study::torque_map::build::Summary;
 
 use crate::Failure;
 use crate::args::{BuildArgs, SourceArg};
+use crate::outputs::{Files, Kind};
 use crate::plan::{self, OnContact, Plan, Work};
 
 pub(crate) fn plan(args: &BuildArgs) -> Result<Plan, Failure> {
     let files = crate::robot::files(args.robot.name())?;
-    if let Some(input) = single_file::same_file(&args.out, &files.read) {
-        return Err(Failure::Input(anyhow!(
-            "--out {} would overwrite {}, which was read",
-            args.out.display(),
-            input.display()
-        )));
-    }
     let experiment = TorqueMapExperiment {
         robot: RobotText::from_files(&files),
         source: match args.source {
@@ -33,7 +24,7 @@ pub(crate) fn plan(args: &BuildArgs) -> Result<Plan, Failure> {
     };
     Ok(Plan {
         work: Work::Study(Experiment::TorqueMap(Box::new(experiment))),
-        out: Some(args.out.clone()),
+        files: Files::of_robot(&files).writing("--out", &args.out, Kind::Lasting),
         opening: plan::searching(!args.restart),
         threads: args.threads,
         json: args.json,

@@ -10,23 +10,25 @@ use prone_record::output;
 use prone_study::torque_map::plot::{self, MapFile};
 
 use crate::args::PlotArgs;
+use crate::outputs::{Files, Kind};
 use crate::{Failure, interrupt};
 
 pub(crate) fn run(args: &PlotArgs) -> Result<(), Failure> {
     let name = args.map.display();
+    let files = Files::default().reading(&args.map);
+    let files = files.writing("--out", &args.out, Kind::Folder);
+    files.check_made_by("torque-map plot")?;
     let text = super::text(&args.map)?;
     let map = parse(&text).map_err(|error| Failure::Input(anyhow!("{name}: {error}")))?;
     let slices = plot::slices(&map, &args.theta3_deg)
         .map_err(|error| Failure::Input(anyhow!("{name}: {error}")))?;
-    interrupt::listen()?;
-    output::check(&args.out).map_err(Failure::input)?;
     let file = MapFile {
         name: name.to_string(),
         comments: comments(&text).collect(),
     };
     let artefacts =
         plot::artefacts(&map, &slices, &file, &crate::program()).map_err(Failure::work)?;
-    interrupt::publish(|| output::publish(&args.out, &artefacts).map_err(Failure::work))?;
+    interrupt::publish(|| Ok(output::publish(&args.out, &artefacts)?))?;
     let mut out = std::io::stdout().lock();
     let described = [output::RUN_FILE, FIGURES_FILE];
     for file in artefacts

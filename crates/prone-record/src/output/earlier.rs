@@ -64,6 +64,20 @@ pub(super) fn standing(folder: &Path) -> Result<Standing, OutputError> {
     })
 }
 
+/// The command that a result names as the one that made it.
+pub(super) fn command(result: &Path) -> Option<String> {
+    #[derive(Deserialize)]
+    struct Made {
+        command: String,
+    }
+    let run_file = result.join(RUN_FILE);
+    let found = fs::metadata(&run_file).ok()?;
+    let is_small = found.is_file() && found.len() <= LARGEST_RUN_FILE;
+    let bytes = is_small.then(|| fs::read(run_file).ok()).flatten()?;
+    let made: Made = serde_json::from_slice(&bytes).ok()?;
+    Some(made.command)
+}
+
 /// Whether a result's list names a file in a folder below it.
 pub(super) fn lists_files_in(result: &Path, folder: &Path) -> bool {
     let Ok(below) = folder.strip_prefix(result) else {

@@ -14,6 +14,7 @@ use tempfile::TempDir;
 use super::earlier::{Standing, standing};
 use super::target::Target;
 use super::{Artefacts, OutputError, RUN_FILE, without_hidden_name, write_error};
+use crate::leftovers::{self, Leftover};
 use crate::lock::try_exclusive;
 
 /// How often another run may be faster before this one gives up.
@@ -26,6 +27,7 @@ const RESULT: &str = "result";
 #[derive(Debug)]
 pub(super) struct Staging {
     folder: TempDir,
+    leftover: Leftover,
     _lock: File,
 }
 
@@ -71,11 +73,21 @@ fn prefix(target: &Target) -> String {
     format!(".{}.partial-", target.name)
 }
 
-fn make(parent: &Path, target: &Target) -> io::Result<TempDir> {
-    let made = tempfile::Builder::new()
-        .prefix(&prefix(target))
-        .tempdir_in(parent);
-    made.map_err(|error| without_hidden_name(&error))
+fn make(parent: &Path, target: &Target) -> io::Result<(TempDir, Leftover)> {
+    let make = || {
+        let made = tempfile::Builder::new()
+            .prefix(&prefix(target))
+            .tempdir_in(parent);
+        made.map_err(|error| without_hidden_name(&error))
+    };
+    leftovers::make(make, |made| remove(made.path()))
+}
+
+/// Removes a staging folder of which nothing is to stay.
+fn remove(folder: &Path) -> impl FnOnce() + Send + use<> {
+    let folder = folder.to_owned();
+    // The next run removes what stays.
+    move || drop(fs::remove_dir_all(folder))
 }
 
 impl Staging {
@@ -83,7 +95,7 @@ impl Staging {
     pub(super) fn new(target: &Target) -> Result<Self, OutputError> {
         let error = |source| write_error(&target.folder, source);
         for _ in 0..ATTEMPTS {
-            let folder = make(&target.parent, target).map_err(error)?;
+            let (folder, leftover) = make(&target.parent, target).map_err(error)?;
             // Until it is locked, another run may take it for an abandoned one.
             let Ok(lock) = File::open(folder.path()) else {
                 continue;
@@ -93,6 +105,7 @@ impl Staging {
             if !matches!(locked, Ok(false)) && folder.path().exists() {
                 return Ok(Self {
                     folder,
+                    leftover,
                     _lock: lock,
                 });
             }
@@ -133,6 +146,33 @@ impl Staging {
 
     /// Moves the result into place; what stands there is looked at once more, before and after.
     pub(super) fn place(self, target: &Target) -> Result<(), OutputError> {
+        let Self {
+            folder,
+            leftover,
+            _lock: lock,
+        } = self;
+        // What comes out of the target may be a stranger, and no leftover.
+        let staged = Staged {
+            folder,
+            _lock: lock,
+        };
+        leftover.settle(|| staged.place(target))
+    }
+}
+
+/// The same, once the result is complete.
+#[derive(Debug)]
+struct Staged {
+    folder: TempDir,
+    _lock: File,
+}
+
+impl Staged {
+    fn result(&self) -> PathBuf {
+        self.folder.path().join(RESULT)
+    }
+
+    fn place(self, target: &Target) -> Result<(), OutputError> {
         for _ in 0..ATTEMPTS {
             let moved = match standing(&target.folder)? {
                 Standing::Nothing => rename_new(&self.result(), &target.folder),
@@ -163,6 +203,8 @@ impl Staging {
                 OutputError::NotAFolder { .. } => OutputError::NotAFolder {
                     folder: target.folder.clone(),
                 },
+                // Not where it was looked at.
+                OutputError::Write { source, .. } => write_error(&target.folder, source),
                 other => other,
             });
         }
@@ -212,7 +254,16 @@ mod tests {
         fs::write(target.folder.join("cat.jpg"), b"cat").unwrap();
         // Between the last look and the exchange.
         exchange(&staging.result(), &target.folder).unwrap();
-        let refused = staging.check_replaced(&target);
+        let Staging {
+            folder,
+            _lock: lock,
+            ..
+        } = staging;
+        let complete = Staged {
+            folder,
+            _lock: lock,
+        };
+        let refused = complete.check_replaced(&target);
         assert!(matches!(refused, Err(OutputError::Foreign { .. })));
         assert_eq!(entries(&target.folder), ["cat.jpg"]);
         assert_eq!(entries(home.path()), ["result"], "the staging is gone");
@@ -235,6 +286,7 @@ mod tests {
         let Staging {
             folder,
             _lock: lock,
+            ..
         } = killed;
         let _ = folder.keep();
         drop(lock);

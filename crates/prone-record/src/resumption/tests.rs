@@ -146,6 +146,26 @@ fn limit_lines_are_on_disk_batch_by_batch() {
 }
 
 #[test]
+fn of_many_differences_the_most_telling_is_said() {
+    let plan = |objective: &str, seed: u64, hip_mm: f64| {
+        json!({
+            "name": format!("best-{objective}"),
+            "pricing": {"aim": {"clearance": {"hip_mm": hip_mm}, "objective": objective}},
+            "seed": seed,
+        })
+    };
+    let then = plan("torque", 1, 13.7);
+    for (now, key) in [
+        (plan("heat", 2, 12.1), "pricing.aim.objective"),
+        (plan("torque", 2, 12.1), "seed"),
+        (plan("torque", 1, 12.1), "pricing.aim.clearance.hip_mm"),
+    ] {
+        assert_eq!(difference(&then, &now).unwrap().0, key);
+    }
+    assert_eq!(difference(&then, &then), None);
+}
+
+#[test]
 fn limit_another_plan_is_refused_with_what_differs() {
     let home = tempfile::tempdir().unwrap();
     let result = home.path().join("map.csv");
@@ -306,7 +326,7 @@ fn limit_two_writers_at_once() {
     for opening in [Opening::Resume, Opening::Restart] {
         assert_eq!(
             refusal(journal(&result, opening), home.path()),
-            "another build of this map is at work: it holds home/.result.prone.lock"
+            "another build of this map is at work: it holds home/result"
         );
     }
     drop(living);
@@ -317,7 +337,7 @@ fn limit_two_writers_at_once() {
     for name in [&result, &linked] {
         assert_eq!(
             refusal(snapshot(name, &json!({}), Opening::Restart), home.path()),
-            "another search for this folder is at work: it holds home/.result.prone.lock"
+            "another search for this folder is at work: it holds home/result"
         );
     }
     drop(living);
@@ -333,7 +353,7 @@ fn limit_a_journal_needs_its_folder() {
     );
     assert_eq!(
         lost,
-        "cannot lock home/none/.map.csv.prone.lock: No such file or directory (os error 2)"
+        "cannot lock home/none/map.csv: No such file or directory (os error 2)"
     );
 }
 

@@ -9,7 +9,8 @@ use prone_sim::camera::{self, Picture};
 use prone_sim::crawl::{Crawl, Row};
 use prone_sim::{Snapshot, World};
 
-use crate::frames::{Frames, FramesError, stacked, towards};
+use crate::frames::{Frames, FramesError, stacked, towards, unless};
+use crate::watch::Watch;
 use prone_report::figures::Figure;
 
 /// How many instants are shown.
@@ -52,20 +53,38 @@ const DISTANCE: f64 = 2.5;
 const RISE: f64 = 0.13;
 
 /// All pictures of a crawl with rows.
-pub fn all(world: &World, gait: &str, crawl: &Crawl) -> Result<Vec<Frames>, FramesError> {
-    let mut pictures: Vec<Frames> = start(world, gait, crawl)?.into_iter().collect();
-    pictures.extend(on_its_way(world, gait, crawl)?);
+pub fn all(
+    world: &World,
+    gait: &str,
+    crawl: &Crawl,
+    watch: &dyn Watch,
+) -> Result<Vec<Frames>, FramesError> {
+    let mut pictures: Vec<Frames> = start(world, gait, crawl, watch)?.into_iter().collect();
+    pictures.extend(on_its_way(world, gait, crawl, watch)?);
     Ok(pictures)
 }
 
 /// The pictures of a crawl with rows but that of its start.
-pub fn on_its_way(world: &World, gait: &str, crawl: &Crawl) -> Result<Vec<Frames>, FramesError> {
-    let pictures = [under(world, gait, crawl)?, sequence(world, gait, crawl)?];
+pub fn on_its_way(
+    world: &World,
+    gait: &str,
+    crawl: &Crawl,
+    watch: &dyn Watch,
+) -> Result<Vec<Frames>, FramesError> {
+    let pictures = [
+        under(world, gait, crawl, watch)?,
+        sequence(world, gait, crawl, watch)?,
+    ];
     Ok(pictures.into_iter().flatten().collect())
 }
 
 /// Figure 22: the first row.
-fn start(world: &World, gait: &str, crawl: &Crawl) -> Result<Option<Frames>, FramesError> {
+fn start(
+    world: &World,
+    gait: &str,
+    crawl: &Crawl,
+    watch: &dyn Watch,
+) -> Result<Option<Frames>, FramesError> {
     let Some((first, snapshot)) = crawl.rows.first().zip(crawl.snapshots.first()) else {
         return Ok(None);
     };
@@ -83,13 +102,18 @@ fn start(world: &World, gait: &str, crawl: &Crawl) -> Result<Option<Frames>, Fra
             .to_owned(),
         svg: String::new(),
     };
-    let picture = close(world, first, snapshot, FROM_BEHIND);
+    let picture = unless(watch, || close(world, first, snapshot, FROM_BEHIND))?;
     Ok(Some(stacked(&[picture], &[String::new()], figure)?))
 }
 
 /// Figure 23: the row nearest to the middle of the first panel or, without one, plate; nothing
 /// where the robot never gets there.
-fn under(world: &World, gait: &str, crawl: &Crawl) -> Result<Option<Frames>, FramesError> {
+fn under(
+    world: &World,
+    gait: &str,
+    crawl: &Crawl,
+    watch: &dyn Watch,
+) -> Result<Option<Frames>, FramesError> {
     let of_kind = |kind| {
         world
             .obstacles()
@@ -129,7 +153,7 @@ fn under(world: &World, gait: &str, crawl: &Crawl) -> Result<Option<Frames>, Fra
         ),
         svg: String::new(),
     };
-    let picture = close(world, row, snapshot, FROM_AHEAD);
+    let picture = unless(watch, || close(world, row, snapshot, FROM_AHEAD))?;
     Ok(Some(stacked(&[picture], &[String::new()], figure)?))
 }
 
@@ -169,7 +193,12 @@ fn instants(crawl: &Crawl) -> Vec<usize> {
 
 /// Takes the pictures from the robot's right with a camera that stays where it is; nothing without
 /// rows.
-fn sequence(world: &World, gait: &str, crawl: &Crawl) -> Result<Option<Frames>, FramesError> {
+fn sequence(
+    world: &World,
+    gait: &str,
+    crawl: &Crawl,
+    watch: &dyn Watch,
+) -> Result<Option<Frames>, FramesError> {
     let (Some(first), Some(last)) = (crawl.rows.first(), crawl.rows.last()) else {
         return Ok(None);
     };
@@ -200,10 +229,14 @@ fn sequence(world: &World, gait: &str, crawl: &Crawl) -> Result<Option<Frames>, 
     let size = (WIDTH, (WIDTH as f64 * height / width).round() as usize);
     let instants = instants(crawl);
     let count = instants.len();
-    let pictures: Vec<Picture> = instants
-        .par_iter()
-        .map(|&index| camera::ray_cast(&mut world.at(&crawl.snapshots[index]), &camera, size))
-        .collect();
+    let picture = |index: usize| {
+        let snapshot = &crawl.snapshots[index];
+        unless(watch, || {
+            camera::ray_cast(&mut world.at(snapshot), &camera, size)
+        })
+    };
+    let pictures = instants.par_iter().map(|&index| picture(index));
+    let pictures: Vec<Picture> = pictures.collect::<Result<_, FramesError>>()?;
     let labels: Vec<String> = instants
         .iter()
         .map(|&index| {

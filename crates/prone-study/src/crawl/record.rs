@@ -13,6 +13,7 @@ use prone_sim::{LoadedRobot, World};
 use super::run::{GaitSource, Subject, record_info};
 use super::{frames, model};
 use crate::frames::FramesError;
+use crate::watch::{Progress, Watch};
 use prone_files::compiled_robot::{CompiledRobot, Violation};
 use prone_record::crawl_summary::CrawlSummary;
 use prone_record::crawl_tables as tables;
@@ -69,6 +70,7 @@ pub fn files(
     recording: &Recording<'_>,
     program: &Program,
     published: &dyn Fn(&str) -> Option<PublishedRange>,
+    watch: &dyn Watch,
 ) -> Result<Artefacts, RecordError> {
     let Recording {
         world,
@@ -77,8 +79,9 @@ pub fn files(
         ..
     } = *recording;
     let mut artefacts = numbers(recording, Command::Crawl, program)?;
+    watch.progress(&Progress::Drawing);
     let mut list = FigureList::default();
-    for frames in frames::all(world, &summary.gait, crawl)? {
+    for frames in frames::all(world, &summary.gait, crawl, watch)? {
         list.picture(&mut artefacts, frames.figure, frames.png);
     }
     let drawn = angles(world.robot(), &summary.gait, crawl);

@@ -203,10 +203,11 @@ impl<'a> Film<'a> {
                 return Err(Interrupted::Stopped);
             }
             let numbers = first..self.len().min(first + batch);
-            let pictures: Vec<Picture> = numbers
-                .into_par_iter()
-                .map(|number| self.picture(number))
-                .collect();
+            let picture = |number| (!watch.stop()).then(|| self.picture(number));
+            let pictures = numbers.into_par_iter().map(picture);
+            let Some(pictures) = pictures.collect::<Option<Vec<Picture>>>() else {
+                return Err(Interrupted::Stopped);
+            };
             let frames: Vec<Result<R::Frame, R::Error>> = (0..pictures.len())
                 .into_par_iter()
                 .map(|index| {

@@ -16,6 +16,7 @@ use prone_sim::{LoadError, WorldError};
 
 use crate::crawl::record::RecordError;
 use crate::crawl::{CrawlRunError, CrawlSetupError, RefusedCycle};
+use crate::frames::FramesError;
 use crate::search::cycle_jobs::CycleSearchError;
 use crate::search::pull_error::PullCostError;
 use crate::search::room::NoRoom;
@@ -49,7 +50,7 @@ pub enum RunError {
     Setup(#[from] CrawlSetupError),
     /// A pull has no record.
     #[error(transparent)]
-    Pull(#[from] PullError),
+    Pull(PullError),
     /// A crawl has no record.
     #[error(transparent)]
     Crawl(CrawlRunError),
@@ -58,7 +59,7 @@ pub enum RunError {
     Cycle(#[from] RefusedCycle),
     /// A record has no files.
     #[error(transparent)]
-    Record(#[from] RecordError),
+    Record(RecordError),
     /// A margin that is as large as its ceiling.
     #[error(transparent)]
     NoRoom(#[from] NoRoom),
@@ -162,6 +163,24 @@ impl RunError {
             | Self::Json(_)
             | Self::Threads(_) => true,
             _ => false,
+        }
+    }
+}
+
+impl From<PullError> for RunError {
+    fn from(error: PullError) -> Self {
+        match error {
+            PullError::Stopped => Self::Stopped,
+            other => Self::Pull(other),
+        }
+    }
+}
+
+impl From<RecordError> for RunError {
+    fn from(error: RecordError) -> Self {
+        match error {
+            RecordError::Frames(FramesError::Stopped) => Self::Stopped,
+            other => Self::Record(other),
         }
     }
 }

@@ -36,9 +36,11 @@ pub struct CostOutcome {
 pub(super) fn cost(
     experiment: &CostExperiment,
     robot: &LoadedRobot,
-) -> Result<CostOutcome, PullCostError> {
-    let gait = experiment.gait.parse(gait_file::parse)?;
-    let world = World::new(robot, Regime::TORQUE_STUDY)?;
+    watch: &dyn Watch,
+) -> Result<CostOutcome, RunError> {
+    let gait = experiment.gait.parse(gait_file::parse);
+    let gait = gait.map_err(PullCostError::from)?;
+    let world = World::new(robot, Regime::TORQUE_STUDY).map_err(PullCostError::from)?;
     let terms = PullTerms::new(&experiment.terms, &world)?;
     let base = &terms.base;
     let same_kind = (gait.mapping, gait.arm) == (base.mapping, base.arm);
@@ -48,16 +50,17 @@ pub(super) fn cost(
             format!("{} has mapping {mapping} and arms {arm}", gait.name)
         };
         let (gait, base) = (kind(&gait), kind(base));
-        return Err(PullCostError::OtherKind { gait, base });
+        return Err(PullCostError::OtherKind { gait, base }.into());
     }
     if terms.share == Share::Metre {
         check_advance(world.robot(), &gait)?;
     }
     let unit = terms.aim.objective().unit();
     let costs = PullCosts::new(&world, terms)?;
-    let cost = costs.cost(&gait, Depth::Everything);
+    let cost = costs.cost_unless(&|| watch.stop(), &gait, Depth::Everything);
+    let cost = cost.ok_or(RunError::Stopped)?;
     if let Some(Refusal::NotCubic) = cost.refusal {
-        return Err(PullCostError::NotCubic { gait: gait.name });
+        return Err(PullCostError::NotCubic { gait: gait.name }.into());
     }
     let cost = costs.record(&cost);
     Ok(CostOutcome { gait, cost, unit })

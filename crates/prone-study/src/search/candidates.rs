@@ -4,7 +4,7 @@ use std::sync::{Mutex, PoisonError};
 
 use prone::gait::cycle::CycleError;
 use prone::gait::{CurveError, PhaseDurationError};
-use prone_optim::{Answer, Failure, Interval, Problem, Query, Score, Scorer};
+use prone_optim::{Answer, Failure, Interval, Query, Score, Scorer};
 use prone_record::frontier::SettingKind;
 use prone_record::gait_search::Broken;
 use prone_record::measure::Measure;
@@ -33,19 +33,30 @@ pub trait Candidates: Send + Sync + 'static {
     /// The gait of a point.
     fn gait(&self, point: &[f64]) -> Result<Self::Gait, PointError>;
 
-    /// The cost of a gait, which depends on nothing but the gait.
-    fn cost(&self, gait: &Self::Gait, depth: Depth) -> Cost;
+    /// The cost of a gait, which depends on nothing but the gait; none where `stopped` said so before it
+    /// was known.
+    fn cost_unless(
+        &self,
+        stopped: &dyn Fn() -> bool,
+        gait: &Self::Gait,
+        depth: Depth,
+    ) -> Option<Cost>;
 
-    /// What an optimiser sees of a point, and the rules that are broken there, as far as they are known.
+    /// What an optimiser sees of a point, and the rules that are broken there, as far as they are known;
+    /// nothing where `stopped` said so before.
     ///
     /// # Errors
     /// [`Failure`] where the point has no gait.
-    fn score(&self, point: &[f64]) -> Result<(Score, Vec<Broken>), Failure> {
+    fn score_unless(
+        &self,
+        stopped: &dyn Fn() -> bool,
+        point: &[f64],
+    ) -> Result<Option<(Score, Vec<Broken>)>, Failure> {
         let gait = self
             .gait(point)
             .map_err(|error| Failure::from_error(&error))?;
-        let cost = self.cost(&gait, Depth::UntilBroken);
-        Ok((cost.score(), cost.broken))
+        let cost = self.cost_unless(stopped, &gait, Depth::UntilBroken);
+        Ok(cost.map(|cost| (cost.score(), cost.broken)))
     }
 }
 
@@ -119,6 +130,15 @@ pub enum PointError {
 }
 
 impl Cost {
+    /// What is not known at all: worse than anything that is.
+    pub(super) fn unknown() -> Self {
+        Self {
+            value: f64::NAN,
+            violation: f64::MAX,
+            ..Self::default()
+        }
+    }
+
     /// Adds what is broken of a rule.
     pub(super) fn add(&mut self, rule: &'static str, amount: f64) {
         self.add_all(&[(rule, amount)]);
@@ -158,6 +178,23 @@ pub struct Searched<'a, C> {
     best: Mutex<Option<(Score, Vec<Broken>)>>,
 }
 
+impl<C: Candidates> Searched<'_, C> {
+    /// What an optimiser sees of a point; nothing where `stopped` said so before it was known.
+    fn evaluate_unless(
+        &self,
+        stopped: &dyn Fn() -> bool,
+        point: &[f64],
+    ) -> Option<Result<Score, Failure>> {
+        let scored = self.candidates.score_unless(stopped, point).transpose()?;
+        Some(scored.map(|(score, broken)| {
+            if !broken.is_empty() {
+                self.remember(score, broken);
+            }
+            score
+        }))
+    }
+}
+
 impl<'a, C> Searched<'a, C> {
     /// Nothing of them has been looked at.
     pub const fn new(candidates: &'a C) -> Self {
@@ -183,7 +220,7 @@ impl<'a, C> Searched<'a, C> {
     }
 }
 
-/// Scores candidates on the current rayon pool until a watch says stop: what has not begun by then is left
+/// Scores candidates on the current rayon pool until a watch says stop: what is not done by then is left
 /// out, and the generation is given up.
 pub struct Watched<'a, C> {
     searched: Searched<'a, C>,
@@ -213,7 +250,7 @@ impl<'a, C: Candidates> Watched<'a, C> {
 
 impl<C: Candidates> Scorer for Watched<'_, C> {
     fn bounds(&self) -> &[Interval] {
-        self.searched.bounds()
+        self.searched.candidates.bounds()
     }
 
     fn known(&self) -> Option<&[f64]> {
@@ -222,24 +259,14 @@ impl<C: Candidates> Scorer for Watched<'_, C> {
 
     fn score(&self, batch: &[Query]) -> Vec<Answer> {
         let answers = batch.par_iter().filter_map(|query| {
-            let goes_on = !self.watch.stop();
-            goes_on.then(|| (query.id, self.searched.evaluate(&query.point)))
+            let stopped = || self.watch.stop();
+            if stopped() {
+                return None;
+            }
+            let score = self.searched.evaluate_unless(&stopped, &query.point)?;
+            Some((query.id, score))
         });
         answers.collect()
-    }
-}
-
-impl<C: Candidates> Problem for Searched<'_, C> {
-    fn bounds(&self) -> &[Interval] {
-        self.candidates.bounds()
-    }
-
-    fn evaluate(&self, point: &[f64]) -> Result<Score, Failure> {
-        let (score, broken) = self.candidates.score(point)?;
-        if !broken.is_empty() {
-            self.remember(score, broken);
-        }
-        Ok(score)
     }
 }
 
@@ -261,14 +288,17 @@ mod tests {
             Ok(point[0])
         }
 
-        fn cost(&self, gait: &f64, _: Depth) -> Cost {
+        fn cost_unless(&self, stopped: &dyn Fn() -> bool, gait: &f64, _: Depth) -> Option<Cost> {
+            if stopped() {
+                return None;
+            }
             let mut cost = Cost {
                 value: -gait,
                 ..Cost::default()
             };
             let rule = if *gait > 2.0 { "far" } else { "near" };
             cost.add(rule, (gait - 1.0).max(0.0));
-            cost
+            Some(cost)
         }
     }
 
@@ -276,7 +306,9 @@ mod tests {
     fn the_rules_that_the_best_breaks_are_remembered() {
         let line = Line([Interval::new(0.0, 4.0).unwrap()]);
         let searched = Searched::new(&line);
-        let scores = [3.0, 1.5, 2.5].map(|x| searched.evaluate(&[x]).unwrap());
+        let score = |x| searched.evaluate_unless(&|| false, &[x]).unwrap().unwrap();
+        let scores = [3.0, 1.5, 2.5].map(score);
+        assert!(searched.evaluate_unless(&|| true, &[0.0]).is_none());
         let rules = |score: &Score| {
             let broken = searched.broken_by(score).into_iter();
             broken.map(|it| it.rule.into_owned()).collect::<Vec<_>>()

@@ -16,13 +16,13 @@ use prone::gait::{Gait, PhaseDuration};
 use prone::robot::Robot;
 use prone_sim::World;
 use prone_sim::crawl::CrawlError;
-use prone_sim::pull::{self, Keep, Pull, Start};
+use prone_sim::pull::{self, Keep, Pull, PullError, Start};
 
 use super::cycle_rules::{Bounds, holds};
 use super::pull_trial;
 use super::run::SearchError;
 use super::setting::{Role, Setting};
-use super::trial::{Trial, try_out};
+use super::trial::{Trial, try_out_unless};
 use crate::pulls::pull_record;
 use crate::watch::{Progress, Watch};
 
@@ -70,9 +70,15 @@ pub fn cycles(
     settings: &[Setting],
     watch: &dyn Watch,
 ) -> Result<Vec<Confirmed>, SearchError> {
-    let tried = in_every(cycles, settings, watch, |(cycle, _), setting| {
-        Ok(try_out(setting, cycle))
-    })?;
+    let tried = in_every(
+        cycles,
+        settings,
+        watch,
+        |(cycle, _), setting| match try_out_unless(&|| watch.stop(), setting, cycle) {
+            Err(CrawlError::Stopped) => Err(SearchError::Stopped),
+            tried => Ok(tried),
+        },
+    )?;
     let confirmed = cycles.iter().zip(tried);
     let confirmed = confirmed.map(|((_, bounds), tried)| confirmed_cycle(settings, tried, *bounds));
     Ok(confirmed.collect())
@@ -139,7 +145,7 @@ pub fn pulls(
     watch: &dyn Watch,
 ) -> Result<Confirmation, SearchError> {
     let tried = in_every(gaits, settings, watch, |gait, setting| {
-        pull_row(gait, setting, objective)
+        pull_row(gait, setting, objective, watch)
     })?;
     let regime = |setting: &PullSetting| setting.world.regime().name;
     let mut regimes: Vec<&str> = settings.iter().map(regime).collect();
@@ -172,11 +178,15 @@ fn pull_row(
     gait: &Gait,
     setting: &PullSetting,
     objective: &Objective,
+    watch: &dyn Watch,
 ) -> Result<Result<Row, Refusal>, SearchError> {
     let (world, duration) = (&setting.world, setting.duration);
     let robot = world.robot();
-    let pull = match pull::run(world, gait, duration, Start::FirstPose, Keep::Rows) {
+    let stopped = || watch.stop();
+    let (start, keep) = (Start::FirstPose, Keep::Rows);
+    let pull = match pull::run_unless(&stopped, world, gait, duration, start, keep) {
         Ok(pull) => pull,
+        Err(PullError::Stopped) => return Err(SearchError::Stopped),
         Err(error) => {
             return Ok(Err(Refusal {
                 regime: world.regime().name.into(),

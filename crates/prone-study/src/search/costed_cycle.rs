@@ -16,15 +16,17 @@ use super::cycle_cost::{CycleAim, CycleCosts};
 use super::cycle_jobs::{self, CycleSearchError, Scope};
 use super::setting::Setting;
 use super::trial::Trial;
+use crate::watch::Watch;
 
 /// The cost of a cycle in every setting of a search for an objective, whatever is broken before.
 ///
 /// # Errors
-/// [`CycleSearchError`] where a search about it could not begin; what cannot be crawled in a setting has
+/// [`CycleSearchError`] where a search about it could not begin, or the watch said stop; what cannot be crawled in a setting has
 /// a cost with the reason.
 pub fn cost(
     experiment: &CycleCostExperiment,
     robot: &LoadedRobot,
+    watch: &dyn Watch,
 ) -> Result<CycleCost, CycleSearchError> {
     let objective = experiment.objective;
     let cycle = experiment.gait.parse(cycle_file::parse)?;
@@ -51,7 +53,8 @@ pub fn cost(
     };
     let rules = aim.rules;
     let costs = CycleCosts::new(Arc::clone(&settings), aim, &base)?;
-    let cost = costs.cost(&cycle, Depth::Everything);
+    let cost = costs.cost_unless(&|| watch.stop(), &cycle, Depth::Everything);
+    let cost = cost.ok_or(CycleSearchError::Stopped)?;
     let heats = match worst_over {
         None => Heats::PerMetre,
         Some(_) => Heats::OverAnother,

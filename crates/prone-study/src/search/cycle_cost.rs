@@ -27,7 +27,7 @@ use super::candidates::{Candidates, Cost, Depth, PointError, Refusal};
 use super::cycle_form::{CycleForm, CycleFormError, Free};
 use super::cycle_rules::{CycleRules, UNTRIED, above};
 use super::setting::{Role, Setting};
-use super::trial::{Trial, try_out};
+use super::trial::{Trial, try_out, try_out_unless};
 
 /// How the heats with different servos become one.
 #[derive(Debug, Clone, PartialEq)]
@@ -154,6 +154,17 @@ impl CycleCosts {
 
     /// The cost of a cycle; a search leaves out the settings after a broken one.
     pub fn cost(&self, cycle: &Cycle, depth: Depth) -> Cost {
+        let cost = self.cost_unless(&|| false, cycle, depth);
+        cost.unwrap_or_else(Cost::unknown)
+    }
+
+    /// The same; none where `stopped` said so before it was known.
+    pub fn cost_unless(
+        &self,
+        stopped: &dyn Fn() -> bool,
+        cycle: &Cycle,
+        depth: Depth,
+    ) -> Option<Cost> {
         let CycleAim {
             objective,
             merge,
@@ -166,8 +177,9 @@ impl CycleCosts {
                 cost.add("untried", UNTRIED * left);
                 break;
             }
-            let trial = match try_out(setting, cycle) {
+            let trial = match try_out_unless(stopped, setting, cycle) {
                 Ok(trial) => trial,
+                Err(CrawlError::Stopped) => return None,
                 Err(source) => {
                     cost.add("untried", UNTRIED * left + excess_speed_of_crawl(&source));
                     cost.refusal.get_or_insert(Refusal::Crawl {
@@ -195,7 +207,7 @@ impl CycleCosts {
         if !valued.is_empty() {
             cost.add("heat", rules.broken_by_heat(merge.heat(&valued)));
         }
-        cost
+        Some(cost)
     }
 
     /// What is broken before anything moves, and why it will not move, where it will not.
@@ -289,8 +301,8 @@ impl Candidates for CycleSearch {
         self.form.cycle(point)
     }
 
-    fn cost(&self, cycle: &Cycle, depth: Depth) -> Cost {
-        self.costs.cost(cycle, depth)
+    fn cost_unless(&self, stopped: &dyn Fn() -> bool, cycle: &Cycle, depth: Depth) -> Option<Cost> {
+        self.costs.cost_unless(stopped, cycle, depth)
     }
 }
 

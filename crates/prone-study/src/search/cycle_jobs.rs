@@ -24,6 +24,7 @@ use prone_record::program::{Program, RobotInfo};
 use prone_record::search::Solver;
 use prone_record::search_plan::{CyclePlan, OnePlan, SearchHead, UnderPlan};
 use prone_sim::LoadedRobot;
+use prone_sim::crawl::CrawlError;
 
 use super::cycle_cost::{CycleAim, CycleSearch, Merge};
 use super::cycle_form::Free;
@@ -31,7 +32,7 @@ use super::room::{NoRoom, too_low};
 use super::run::Job;
 use super::setting::Setting;
 use super::settings::{self, SettingError};
-use super::trial::{Trial, try_out};
+use super::trial::{Trial, try_out_unless};
 use crate::watch::Watch;
 use rules::held_rules;
 
@@ -65,7 +66,7 @@ pub fn jobs(
             rules, worst_over, ..
         } => (merge(worst_over.as_ref(), &searched)?, **rules),
     };
-    let tried = tried(robot, &searched[0], &from)?;
+    let tried = tried(robot, &searched[0], &from, watch)?;
     let job = |Point { at, height }| {
         if watch.stop() {
             return Err(CycleSearchError::Stopped);
@@ -326,30 +327,34 @@ fn under_plan(experiment: &CycleSearchExperiment, job: Option<&Job<CycleSearch>>
 /// most in the first of the settings; where none does, the lowest.
 ///
 /// # Errors
-/// [`CycleSearchError::NoCycle`].
+/// [`CycleSearchError::NoCycle`], [`CycleSearchError::Stopped`].
 pub fn base<'c>(
     robot: &LoadedRobot,
     setting: &Setting,
     cycles: &'c [Cycle],
     height: f64,
+    watch: &dyn Watch,
 ) -> Result<&'c Cycle, CycleSearchError> {
-    Ok(below(&tried(robot, setting, cycles)?, height))
+    Ok(below(&tried(robot, setting, cycles, watch)?, height))
 }
 
 /// Cycles with what they do in a setting; those that cannot be crawled are left out.
 ///
 /// # Errors
-/// [`CycleSearchError::NoCycle`] where none is left.
+/// [`CycleSearchError::NoCycle`] where none is left, [`CycleSearchError::Stopped`].
 fn tried<'c>(
     robot: &LoadedRobot,
     setting: &Setting,
     cycles: &'c [Cycle],
+    watch: &dyn Watch,
 ) -> Result<Vec<(&'c Cycle, Trial)>, CycleSearchError> {
+    let stopped = || watch.stop();
     let mut tried: Vec<(&Cycle, Trial)> = Vec::with_capacity(cycles.len());
     let mut refused = Vec::new();
     for cycle in cycles {
-        match try_out(setting, cycle) {
+        match try_out_unless(&stopped, setting, cycle) {
             Ok(trial) => tried.push((cycle, trial)),
+            Err(CrawlError::Stopped) => return Err(CycleSearchError::Stopped),
             Err(error) => refused.push((cycle.name.clone(), error)),
         }
     }

@@ -20,7 +20,7 @@ use super::cycle_jobs::{self, CycleSearchError};
 use super::cycle_rules::Bounds;
 use super::run::{Job, SearchError, SearchRun, draw};
 use super::setting::Setting;
-use super::steering::check_steering;
+use super::steering::check_steering_unless;
 use super::{confirm, settings};
 use crate::watch::Watch;
 
@@ -86,12 +86,17 @@ impl CycleRun {
         &self,
         job: &Job<CycleSearch>,
         run: &SeededRun,
+        watch: &dyn Watch,
     ) -> Result<Option<(Cycle, Found)>, SearchError> {
         let Some(best) = run.best() else {
             return Ok(None);
         };
         let mut cycle = job.candidates.gait(&best.point)?;
-        let cost = job.candidates.cost(&cycle, Depth::Everything);
+        let stopped = || watch.stop();
+        let cost = job
+            .candidates
+            .cost_unless(&stopped, &cycle, Depth::Everything);
+        let cost = cost.ok_or(SearchError::Stopped)?;
         let stem = match (&self.name, job.at) {
             (Some(name), _) => name.clone(),
             (None, Some(at)) => self.held.stem(at),
@@ -100,8 +105,12 @@ impl CycleRun {
         cycle.name = format!("{stem}-seed-{}", run.seed);
         let steering = match cycle.steering {
             None => Ok(()),
-            Some(_) => check_steering(&self.steering, &cycle),
+            Some(_) => check_steering_unless(&stopped, &self.steering, &cycle),
         };
+        // What it says of a crawl that was stopped is no finding.
+        if stopped() {
+            return Err(SearchError::Stopped);
+        }
         if steering.is_err() {
             cycle.forget_steering();
         }
@@ -211,7 +220,7 @@ impl SearchRun for CycleRun {
                 if watch.stop() {
                     return Err(SearchError::Stopped);
                 }
-                if let Some((cycle, record)) = self.found(job, run)? {
+                if let Some((cycle, record)) = self.found(job, run, watch)? {
                     cycles.push((cycle, bounds));
                     found.push(record);
                 }

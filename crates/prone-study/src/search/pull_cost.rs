@@ -123,7 +123,18 @@ impl PullCosts {
 
     /// The cost of a gait.
     pub fn cost(&self, gait: &Gait, depth: Depth) -> Cost {
-        match &self.method {
+        let cost = self.cost_unless(&|| false, gait, depth);
+        cost.unwrap_or_else(Cost::unknown)
+    }
+
+    /// The same; none where `stopped` said so before it was known.
+    pub fn cost_unless(
+        &self,
+        stopped: &dyn Fn() -> bool,
+        gait: &Gait,
+        depth: Depth,
+    ) -> Option<Cost> {
+        Some(match &self.method {
             Method::Published { objective, .. } => published_cost(objective, gait),
             Method::Graded {
                 mapping,
@@ -142,21 +153,27 @@ impl PullCosts {
                     {
                         unsimulated(broken, None)
                     }
-                    Torques::Simulated(_) => self.simulated(gait, mapping, norm, broken),
+                    Torques::Simulated(_) => {
+                        return self.simulated(stopped, gait, (mapping, norm), broken);
+                    }
                 }
             }
-        }
+        })
     }
 
     /// The simulated pull of a gait, whatever rules it breaks.
     pub fn pull(&self, gait: &Gait) -> Result<Pull, PullError> {
+        self.pull_unless(&|| false, gait)
+    }
+
+    fn pull_unless(&self, stopped: &dyn Fn() -> bool, gait: &Gait) -> Result<Pull, PullError> {
         let (world, duration) = (&self.world, self.terms.duration);
         match &self.method {
             Method::Graded {
                 torques: Torques::Simulated(begun),
                 ..
-            } => begun.pull(world, gait, duration),
-            _ => pull::run(world, gait, duration, Start::FirstPose, Keep::Rows),
+            } => begun.pull(stopped, world, gait, duration),
+            _ => pull::run_unless(stopped, world, gait, duration, Start::FirstPose, Keep::Rows),
         }
     }
 
@@ -179,27 +196,28 @@ impl PullCosts {
 
     fn simulated(
         &self,
+        stopped: &dyn Fn() -> bool,
         gait: &Gait,
-        mapping: &Mapping,
-        norm: &Norm,
+        (mapping, norm): (&Mapping, &Norm),
         mut violations: Violations,
-    ) -> Cost {
+    ) -> Option<Cost> {
         let terms = &self.terms;
         let trial = || {
-            let pull = self.pull(gait)?;
+            let pull = self.pull_unless(stopped, gait)?;
             let torque = pull_trial::torque_part(self.world.robot(), &pull, norm)?;
             Ok::<_, PullTrialError>((torque, pull_trial::body_share(&pull)))
         };
         let (torque, body_share) = match trial() {
             Ok(trial) => trial,
-            Err(error) => return unsimulated(violations, Some(error)),
+            Err(PullTrialError::Pull(PullError::Stopped)) => return None,
+            Err(error) => return Some(unsimulated(violations, Some(error))),
         };
         let torque = per(terms.share, mapping.chain(), gait).of(torque);
         if terms.body_share < 1.0 {
             let excess = (body_share - terms.body_share) / (1.0 - terms.body_share);
             violations.add(Rule::BodyShare, excess);
         }
-        graded_cost(torque, &violations, None)
+        Some(graded_cost(torque, &violations, None))
     }
 
     /// A cost in the form of a record.
@@ -246,19 +264,23 @@ impl Candidates for PullSearch {
         }
     }
 
-    fn cost(&self, gait: &Gait, depth: Depth) -> Cost {
-        self.costs.cost(gait, depth)
+    fn cost_unless(&self, stopped: &dyn Fn() -> bool, gait: &Gait, depth: Depth) -> Option<Cost> {
+        self.costs.cost_unless(stopped, gait, depth)
     }
 
-    fn score(&self, point: &[f64]) -> Result<(Score, Vec<Broken>), Failure> {
+    fn score_unless(
+        &self,
+        stopped: &dyn Fn() -> bool,
+        point: &[f64],
+    ) -> Result<Option<(Score, Vec<Broken>)>, Failure> {
         match &self.costs.method {
             // Its rules are searched with a margin.
-            Method::Published { problem, .. } => Ok((problem.evaluate(point)?, Vec::new())),
+            Method::Published { problem, .. } => Ok(Some((problem.evaluate(point)?, Vec::new()))),
             Method::Graded { .. } => {
                 let gait = self.form.gait(point);
                 let gait = gait.map_err(|error| Failure::from_error(&error))?;
-                let cost = self.cost(&gait, Depth::UntilBroken);
-                Ok((cost.score(), cost.broken))
+                let cost = self.cost_unless(stopped, &gait, Depth::UntilBroken);
+                Ok(cost.map(|cost| (cost.score(), cost.broken)))
             }
         }
     }

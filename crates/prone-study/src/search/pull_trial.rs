@@ -45,25 +45,23 @@ impl Begun {
         Self(begin())
     }
 
-    /// Simulates a gait's pull, whatever rules it breaks: the same as alone, to the bit.
+    /// Simulates a gait's pull, whatever rules it breaks: the same as alone, to the bit; ended at once
+    /// when `stopped` says so.
     pub(super) fn pull(
         &self,
+        stopped: &dyn Fn() -> bool,
         world: &World,
         gait: &Gait,
         duration: PhaseDuration,
     ) -> Result<Pull, PullError> {
         let trajectory = pull::plan(world, gait, duration).map_err(PullError::from)?;
         let placement = pull::placement(world, &trajectory, Start::FirstPose)?;
-        let diverged = |source| PullError::Simulation {
-            gait: gait.name.clone(),
-            duration_s: duration.seconds(),
-            source,
-        };
+        let ended = |source| PullError::in_simulation(gait, duration, source);
         let simulation = match &self.0 {
             Some((begun, simulation)) if *begun == placement => simulation.clone(),
-            _ => pull::settle(world, &placement).map_err(diverged)?,
+            _ => pull::settle_unless(stopped, world, &placement).map_err(ended)?,
         };
-        pull::proceed(simulation, trajectory, Keep::Rows).map_err(diverged)
+        pull::proceed_unless(stopped, simulation, trajectory, Keep::Rows).map_err(ended)
     }
 }
 

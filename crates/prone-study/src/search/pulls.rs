@@ -156,7 +156,7 @@ impl PullRun {
         gait: &Gait,
         confirmation: &Confirmation,
     ) -> Result<Outcome, SearchError> {
-        let cost = searched.cost(gait, Depth::Everything);
+        let cost = searched.costs.cost(gait, Depth::Everything);
         let cost = searched.costs.record(&cost);
         let runs = search.runs().iter().map(|run| {
             let cost = match run.best() {
@@ -317,7 +317,7 @@ impl SearchRun for PullRun {
 
 /// What a gait costs, `None` where the objective has no cost for it.
 fn known_cost(searched: &PullSearch, gait: &Gait) -> Option<PullCost> {
-    let cost = searched.cost(gait, Depth::Everything);
+    let cost = searched.costs.cost(gait, Depth::Everything);
     let no_cost = matches!(cost.refusal, Some(NoCost::NotCubic));
     (!no_cost).then(|| searched.costs.record(&cost))
 }

@@ -7,7 +7,7 @@ use prone_record::frontier::SettingKind;
 use prone_sim::crawl::CrawlError;
 
 use super::setting::{Role, Setting};
-use super::trial::try_out;
+use super::trial::try_out_unless;
 
 /// Why a cycle cannot be steered.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -51,6 +51,16 @@ pub enum NotSteered {
 /// the steering of the one that it was searched about, which may do nothing in it, or turn it the
 /// wrong way.
 pub fn check_steering(settings: &[Setting], cycle: &Cycle) -> Result<(), NotSteered> {
+    check_steering_unless(&|| false, settings, cycle)
+}
+
+/// The same, ended at once where `stopped` says so: with [`CrawlError::Stopped`], or with whatever has
+/// come of it by then.
+pub fn check_steering_unless(
+    stopped: &dyn Fn() -> bool,
+    settings: &[Setting],
+    cycle: &Cycle,
+) -> Result<(), NotSteered> {
     // Not a number steers nothing, and throws a robot off as far as can be.
     let further = |one: f64, other: f64| match one.total_cmp(&other.abs()) {
         Ordering::Less => other.abs(),
@@ -58,10 +68,11 @@ pub fn check_steering(settings: &[Setting], cycle: &Cycle) -> Result<(), NotStee
     };
     let (mut turned, mut thrown_off) = (f64::NEG_INFINITY, 0.0_f64);
     for setting in settings {
-        let trial = try_out(setting, cycle).map_err(|source| NotSteered::Crawl {
-            setting: setting.spec.kind,
-            source,
-        })?;
+        let trial =
+            try_out_unless(stopped, setting, cycle).map_err(|source| NotSteered::Crawl {
+                setting: setting.spec.kind,
+                source,
+            })?;
         match setting.spec.role {
             Role::Turn(_) => {
                 if trial.yaw < turned {

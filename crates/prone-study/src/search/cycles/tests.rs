@@ -3,11 +3,10 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use prone_files::shipped;
-use prone_optim::Threads;
 use prone_record::search::Solver;
 use prone_sim::RobotFiles;
 
-use super::super::candidates::Searched;
+use super::super::candidates::Watched;
 use super::super::cycle_cost::{CycleAim, Merge};
 use super::super::cycle_form::Free;
 use super::super::cycle_jobs::base;
@@ -15,7 +14,7 @@ use super::super::cycle_rules::Bounds;
 use super::super::cycle_rules::CycleRules;
 use super::super::setting::Role;
 use super::super::settings::{for_search, for_steering, for_steering_confirmation};
-use super::super::steering::NotSteered;
+use super::super::steering::{NotSteered, check_steering};
 use super::*;
 use crate::watch::Unwatched;
 
@@ -80,12 +79,13 @@ fn a_steerable_search_finds_what_turns_to_the_left() {
         let (robot, aim) = (robot.robot(), aim.clone());
         let searched = CycleSearch::new(robot, &settings, aim, base, about).unwrap();
         let mut search = Search::new(Solver::AboutTheMiddle, 1, 1, 16);
-        search.proceed(&Threads(Searched::new(&searched)), |_| {
+        search.proceed(&Watched::new(&searched, &Unwatched), |_| {
             ControlFlow::Continue(())
         });
         let (_, best) = search.best().unwrap();
         let cycle = searched.gait(&best.point).unwrap();
-        let cost = searched.cost(&cycle, Depth::Everything);
+        let cost = searched.cost_unless(&|| false, &cycle, Depth::Everything);
+        let cost = cost.unwrap();
         (
             [1, 2].map(|index: usize| cost.trials[index].yaw),
             cost.violation,
@@ -120,7 +120,7 @@ fn where_no_cycle_can_be_crawled_each_says_why() {
     let mut hasty = shipped::cycle("hip-10").unwrap().unwrap();
     hasty.waypoints[0].approach.seconds = 0.1;
     let cycles = [hasty];
-    let refused = base(&robot, &settings[0], &cycles, 0.2).unwrap_err();
+    let refused = base(&robot, &settings[0], &cycles, 0.2, &Unwatched).unwrap_err();
     let message = refused.to_string();
     let mut lines = message.lines();
     assert_eq!(

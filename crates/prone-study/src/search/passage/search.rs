@@ -30,12 +30,13 @@ pub fn candidates(
     robot: &LoadedRobot,
     cycles: &[Cycle],
     height: f64,
+    watch: &dyn Watch,
 ) -> Result<CycleSearch, CycleSearchError> {
     let objective = CycleObjective::Advance;
     let mut settings = settings::for_search(objective, robot)?;
     settings.extend(settings::searched_corners(robot)?);
     let settings: Arc<[Setting]> = settings.into();
-    let base = cycle_jobs::base(robot, &settings[0], cycles, height)?;
+    let base = cycle_jobs::base(robot, &settings[0], cycles, height, watch)?;
     let aim = CycleAim {
         objective,
         merge: Merge::Mean,

@@ -42,7 +42,10 @@ impl Watch for Counting {
             Progress::Done(rows) => {
                 self.done.fetch_add(rows, Ordering::SeqCst);
             }
-            Progress::Simulating(_) | Progress::Searching { .. } | Progress::Found(..) => {}
+            Progress::Simulating(_)
+            | Progress::Drawing
+            | Progress::Searching { .. }
+            | Progress::Found(..) => {}
         }
     }
 
