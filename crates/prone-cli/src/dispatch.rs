@@ -13,6 +13,7 @@ use prone_thesis::published;
 use prone_thesis::reproduce::Reproduction;
 
 use crate::plan::{Plan, Work};
+use crate::printed;
 use crate::progress::Progress;
 use crate::{Failure, cost, crawl, cycle_search, failure, interrupt, optimize, passage, refusal};
 use crate::{program, reproduce, torque_map};
@@ -55,7 +56,7 @@ pub(crate) fn carry_out(plan: &Plan) -> Result<(), Failure> {
     let done = done?;
     interrupt::ended();
     done.remark();
-    let mut out = std::io::stdout().lock();
+    let mut out = printed::out();
     if plan.json {
         writeln!(out, "{}", done.json()?)?;
     } else {
@@ -138,5 +139,5 @@ impl Done {
 }
 
 fn json(record: &impl Serialize) -> Result<String, Failure> {
-    serde_json::to_string_pretty(record).map_err(Failure::work)
+    prone_record::output::json_text(record).map_err(Failure::work)
 }

@@ -17,6 +17,7 @@ use prone_record::single_file;
 use prone_report::export::{key_frames, numpy, ros_log, table, timeline, urdf};
 
 use crate::args::{ExportArgs, Format};
+use crate::printed;
 use crate::{Failure, interrupt, record_folder};
 
 pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
@@ -54,7 +55,7 @@ fn put(out: &Path, bytes: &[u8], said: &str) -> Result<(), Failure> {
 }
 
 fn say(out: &Path, said: &str) -> Result<(), Failure> {
-    writeln!(std::io::stdout().lock(), "{}: {said}", out.display())?;
+    writeln!(printed::out(), "{}: {said}", out.display())?;
     Ok(())
 }
 

@@ -10,8 +10,13 @@
 use std::io::Write as _;
 use std::process::ExitCode;
 
+use prone::foreign_text;
 use prone_record::output::OutputError;
 use prone_record::single_file::WriteError;
+
+/// Longest message, bytes. Foreign texts in messages are cut where they are put in; this is for what a
+/// library says, and for paths.
+const LONGEST_MESSAGE: usize = 1_500;
 
 /// Exit code of a run that the user stopped.
 pub(crate) const STOPPED: u8 = 130;
@@ -74,7 +79,12 @@ impl Failure {
 
 /// One line to standard error. Where nobody hears, the exit code still speaks.
 pub(crate) fn say(line: &str) {
-    let _ = writeln!(std::io::stderr(), "{line}");
+    let line = foreign_text::escaped_lines(line);
+    let _ = writeln!(
+        std::io::stderr(),
+        "{}",
+        foreign_text::bounded(&line, LONGEST_MESSAGE)
+    );
 }
 
 /// A result that cannot be written.

@@ -5,6 +5,7 @@ mod cycle;
 use std::io::Write as _;
 use std::path::Path;
 
+use prone::foreign_text;
 use prone::gait::{Gait, PhaseDuration};
 use prone::robot::Robot;
 use prone_files::gait_text::{GaitKind, GaitText};
@@ -17,6 +18,7 @@ use prone_study::gait_sheet::{self, GaitSheet};
 
 use crate::args::GaitShowArgs;
 use crate::outputs::{Files, Kind};
+use crate::printed;
 use crate::{Failure, interrupt};
 
 /// Every how many of the 101 instants one is printed.
@@ -74,9 +76,9 @@ pub(crate) fn show(args: &GaitShowArgs) -> Result<(), Failure> {
     if let Some(path) = &args.csv {
         write_csv(&sheet, path)?;
     }
-    let mut out = std::io::stdout().lock();
+    let mut out = printed::out();
     if args.json {
-        let text = serde_json::to_string_pretty(&sheet).map_err(Failure::work)?;
+        let text = prone_record::output::json_text(&sheet).map_err(Failure::work)?;
         writeln!(out, "{text}")?;
         return Ok(());
     }
@@ -97,7 +99,8 @@ fn print(sheet: &GaitSheet, robot: &Robot, out: &mut impl std::io::Write) -> std
 }
 
 fn print_table(sheet: &GaitSheet, out: &mut impl std::io::Write) -> std::io::Result<()> {
-    writeln!(out, "{}: {}", sheet.gait, sheet.description)?;
+    let description = foreign_text::escaped(&sheet.description);
+    writeln!(out, "{}: {description}", sheet.gait)?;
     writeln!(
         out,
         "on {}, {} s, mapping {}, arms {}\n",

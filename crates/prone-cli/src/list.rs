@@ -2,11 +2,13 @@
 
 use std::io::{Result, Write};
 
+use prone::foreign_text;
 use prone_study::catalogue::{self, CatalogueError, CycleFigures, Listed, ListedKind, Origin};
 use prone_study::run::{RunError, Session};
 
 use crate::args::list::{KindName, ListArgs};
 use crate::cells::number;
+use crate::printed;
 use crate::progress::Progress;
 use crate::{Failure, interrupt, program};
 
@@ -39,9 +41,9 @@ pub(crate) fn run(args: &ListArgs) -> std::result::Result<(), Failure> {
         })?;
     }
     interrupt::ended();
-    let mut out = std::io::stdout().lock();
+    let mut out = printed::out();
     if args.json {
-        let text = serde_json::to_string_pretty(&listed).map_err(Failure::work)?;
+        let text = prone_record::output::json_text(&listed).map_err(Failure::work)?;
         writeln!(out, "{text}")?;
         return Ok(());
     }
@@ -115,7 +117,7 @@ fn line(it: &Listed, width: usize) -> String {
             row(figures, if turns { "yes" } else { "no" })
         }
         (None, Some(refused)) => format!("  cannot be used: {refused}"),
-        (None, None) => format!("  {}", it.description),
+        (None, None) => format!("  {}", foreign_text::escaped(&it.description)),
     };
     format!("{mark:>2}{:<width$}{said}", it.name)
 }

@@ -21,6 +21,7 @@ mod optimize;
 mod outputs;
 mod passage;
 mod plan;
+mod printed;
 mod progress;
 mod pull_terms;
 mod record_folder;

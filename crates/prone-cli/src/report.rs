@@ -14,6 +14,7 @@ use prone_thesis::chapter::Thesis;
 
 use crate::args::ReportArgs;
 use crate::outputs::{Files, Kind};
+use crate::printed;
 use crate::{Failure, interrupt, record_folder};
 
 pub(crate) fn run(args: &ReportArgs) -> Result<(), Failure> {
@@ -162,9 +163,9 @@ fn failure(error: ReportError) -> Failure {
 }
 
 fn print(args: &ReportArgs, report: &Report, page: &Path) -> Result<(), Failure> {
-    let mut out = std::io::stdout().lock();
+    let mut out = printed::out();
     if args.json {
-        let text = serde_json::to_string_pretty(&report.numbers).map_err(Failure::work)?;
+        let text = prone_record::output::json_text(&report.numbers).map_err(Failure::work)?;
         writeln!(out, "{text}")?;
         return Ok(());
     }

@@ -16,6 +16,7 @@ use prone_study::robot_sheet::{self, ChainSheet, RobotSheet};
 
 use crate::Failure;
 use crate::args::RobotCheckArgs;
+use crate::printed;
 
 /// The robot of a folder or a name, or the one that ships.
 pub(crate) fn load(name: Option<&Path>) -> Result<LoadedRobot, Failure> {
@@ -57,9 +58,9 @@ pub(crate) fn check(args: &RobotCheckArgs) -> Result<(), Failure> {
             refused: compiled.as_ref().err().map(ToString::to_string),
         }),
     };
-    let mut out = std::io::stdout().lock();
+    let mut out = printed::out();
     if args.json {
-        let text = serde_json::to_string_pretty(&checked).map_err(Failure::work)?;
+        let text = prone_record::output::json_text(&checked).map_err(Failure::work)?;
         writeln!(out, "{text}")?;
     } else {
         print(&checked.sheet, folder, &mut out)?;

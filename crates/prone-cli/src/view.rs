@@ -15,6 +15,7 @@ use prone_report::view::{self, record};
 
 use crate::args::ViewArgs;
 use crate::outputs::{Files, Kind};
+use crate::printed;
 use crate::{Failure, interrupt, record_folder};
 
 /// What opens a page in the browser of the user's choice.
@@ -60,7 +61,7 @@ pub(crate) fn run(args: &ViewArgs) -> Result<(), Failure> {
         open(&out)?;
     }
     writeln!(
-        std::io::stdout(),
+        printed::out(),
         "{}: {} rows, {:.2} MB",
         out.display(),
         runs.iter().map(record::Run::rows).sum::<usize>(),
@@ -68,7 +69,7 @@ pub(crate) fn run(args: &ViewArgs) -> Result<(), Failure> {
     )?;
     for (folder, run) in folders.iter().zip(&runs) {
         for gap in run.gaps() {
-            writeln!(std::io::stdout(), "{}: {gap}", folder.display())?;
+            writeln!(printed::out(), "{}: {gap}", folder.display())?;
         }
     }
     let notes = runs.iter().map(|run| run.shortfalls().to_vec());

@@ -8,6 +8,7 @@
 //! [defaults]         # which gaits the program uses, see [`crate::defaults`]
 //! ```
 
+use prone::foreign_text::Quoted;
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -41,8 +42,8 @@ impl FamilyFile {
         for (name, whose) in names.into_iter().chain(recorded) {
             if !is_plain(name.get_ref()) {
                 let message = format!(
-                    "the name of {whose} is made of letters, digits, - and _ (it names a folder), not {:?}",
-                    name.get_ref()
+                    "the name of {whose} is made of letters, digits, - and _ (it names a folder), not {}",
+                    Quoted(name.get_ref())
                 );
                 return Err(source.error(name.span(), message));
             }

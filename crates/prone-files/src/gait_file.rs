@@ -22,6 +22,7 @@
 use serde::Deserialize;
 use toml::Spanned;
 
+use prone::foreign_text::Quoted;
 use prone::gait::{Gait, LimitsPolicy};
 use prone::mapping::{ArmMode, MappingVariant};
 
@@ -61,7 +62,7 @@ pub(crate) fn check_name(source: Source<'_>, name: &Spanned<String>) -> Result<(
     if !is_plain(text) {
         return Err(source.error(
             name.span(),
-            format!("a gait's name is made of letters, digits, - and _ (it becomes part of file names), not {text:?}"),
+            format!("a gait's name is made of letters, digits, - and _ (it becomes part of file names), not {}", Quoted(text)),
         ));
     }
     Ok(())

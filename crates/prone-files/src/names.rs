@@ -11,10 +11,14 @@ use std::path::Path;
 
 use strsim::osa_distance;
 
+use prone::foreign_text::Quoted;
 use prone::gait::cycle::CycleError;
 
 /// Most edits between what was asked for and what may have been meant.
 const MOST_EDITS: usize = 3;
+
+/// Longest text that may mean a name, bytes.
+const LONGEST: usize = 200;
 
 /// Fewest letters of which a longer name is the continuation.
 const FEWEST_LETTERS: usize = 3;
@@ -107,7 +111,11 @@ impl UnknownName {
             asked: asked.to_owned(),
             place: None,
             robot: None,
-            nearest: nearest(meant, &known).map(str::to_owned),
+            // To tell how near a long text is takes its length squared; no name is as long.
+            nearest: Some(meant)
+                .filter(|meant| meant.len() <= LONGEST)
+                .and_then(|meant| nearest(meant, &known))
+                .map(str::to_owned),
             known,
         }
     }
@@ -169,7 +177,7 @@ impl fmt::Display for UnknownName {
         } else {
             self.kind.noun()
         };
-        write!(f, "there is no {noun} {:?}", self.asked)?;
+        write!(f, "there is no {noun} {}", Quoted(&self.asked))?;
         if let Some(place) = &self.place {
             write!(f, " in {place}")?;
         }

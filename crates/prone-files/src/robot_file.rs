@@ -10,6 +10,8 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
+use prone::foreign_text;
+
 use crate::defaults::DefaultsTable;
 use crate::error::{FileError, Source};
 use crate::exactly::{Exactly, exactly};
@@ -318,6 +320,11 @@ impl RobotFile {
         let bytes = self.name.get_ref().len();
         if !(1..=LONGEST_NAME).contains(&bytes) {
             let message = format!("the name of a robot has 1 to {LONGEST_NAME} bytes, not {bytes}");
+            return Err(source.error(self.name.span(), message));
+        }
+        if self.name.get_ref().contains(foreign_text::is_hidden) {
+            let name = foreign_text::Quoted(self.name.get_ref());
+            let message = format!("the name of a robot has no letter that is not seen, not {name}");
             return Err(source.error(self.name.span(), message));
         }
         let motors = self.motors.keys().map(|name| ("motor", name));

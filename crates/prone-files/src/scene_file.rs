@@ -41,6 +41,7 @@
 
 mod tables;
 
+use prone::foreign_text::Quoted;
 use prone::scene::{Item, Quantity, Scene, SceneError};
 
 use crate::error::{FileError, Source};
@@ -55,7 +56,7 @@ pub fn parse(file: &str, text: &str) -> Result<Scene, FileError> {
     if !is_plain(name) {
         return Err(source.error(
             table.name.span(),
-            format!("a scene's name is made of letters, digits, - and _ (it becomes part of file names), not {name:?}"),
+            format!("a scene's name is made of letters, digits, - and _ (it becomes part of file names), not {}", Quoted(name)),
         ));
     }
     if let Some([given, missing]) = table.half_a_friction() {

@@ -12,7 +12,11 @@ const BARE: [&str; 4] = [
 ];
 
 /// Where that is right, and why.
-const EXCEPTIONS: [(&str, &str); 2] = [
+const EXCEPTIONS: [(&str, &str); 3] = [
+    (
+        "prone-cli/src/interrupt.rs",
+        "asks the system which signals are ignored",
+    ),
     (
         "prone-record/src/output/staging.rs",
         "opens folders, to lock them",

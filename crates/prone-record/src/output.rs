@@ -10,6 +10,8 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
+use prone::foreign_text;
+
 use crate::real_path::NoRealPath;
 use earlier::Standing;
 use staging::Staging;
@@ -27,9 +29,17 @@ pub type Artefacts = BTreeMap<String, Vec<u8>>;
 /// # Errors
 /// [`serde_json::Error`] where the value has no JSON.
 pub fn json(value: &impl Serialize) -> Result<Vec<u8>, serde_json::Error> {
-    let mut text = serde_json::to_vec_pretty(value)?;
-    text.push(b'\n');
-    Ok(text)
+    Ok((json_text(value)? + "\n").into_bytes())
+}
+
+/// The same as text, without a line end after it. Letters that are not seen, or that turn others round,
+/// stand as escapes of JSON: who reads it has them, a terminal has not.
+///
+/// # Errors
+/// As [`json`].
+pub fn json_text(value: &impl Serialize) -> Result<String, serde_json::Error> {
+    let text = serde_json::to_string_pretty(value)?;
+    Ok(foreign_text::escaped_json(&text).into_owned())
 }
 
 /// Why a result folder cannot be made.

@@ -10,6 +10,8 @@ pub mod record;
 use maud::{DOCTYPE, PreEscaped, html};
 use serde::Serialize;
 
+use prone::foreign_text;
+
 use crate::page_head;
 use record::Run;
 
@@ -52,7 +54,7 @@ pub fn page(runs: &[&Run]) -> Result<String, serde_json::Error> {
             }
         }
     };
-    Ok(page.into_string())
+    Ok(foreign_text::escaped_page(&page.into_string()).into_owned())
 }
 
 /// JSON in which nothing ends the element that it stands in.

@@ -13,6 +13,7 @@ use prone_study::gait_sheet::{self, GaitSheet};
 
 use crate::Failure;
 use crate::args::GaitShowArgs;
+use crate::printed;
 
 /// Shows a cycle on a robot.
 pub(super) fn show(
@@ -35,7 +36,7 @@ pub(super) fn show(
         }
         (None, _) => {}
     }
-    let mut out = std::io::stdout().lock();
+    let mut out = printed::out();
     if args.json {
         let waypoints = cycle.waypoints.iter().map(|waypoint| {
             let degrees = waypoint.joints.iter();
@@ -62,7 +63,7 @@ pub(super) fn show(
             },
             "turn_limit_deg": cycle.steering.as_ref().map(|steering| steering.limit.to_degrees()),
         });
-        let text = serde_json::to_string_pretty(&shown).map_err(Failure::work)?;
+        let text = prone_record::output::json_text(&shown).map_err(Failure::work)?;
         writeln!(out, "{text}")?;
         return Ok(());
     }

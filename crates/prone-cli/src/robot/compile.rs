@@ -13,6 +13,7 @@ use prone_sim::LoadedRobot;
 
 use crate::args::RobotCompileArgs;
 use crate::outputs::{Files, Kind};
+use crate::printed;
 use crate::{Failure, interrupt, robot};
 
 pub(crate) fn run(args: &RobotCompileArgs) -> Result<(), Failure> {
@@ -85,7 +86,7 @@ fn is_of_another_kind(path: &Path) -> Result<bool, Failure> {
 }
 
 fn say(args: &RobotCompileArgs, file: &Path, compiled: &CompiledRobot) -> Result<(), Failure> {
-    let mut out = std::io::stdout().lock();
+    let mut out = printed::out();
     let (name, hash, engine) = (
         &compiled.robot().name,
         compiled.sources_hash(),
@@ -100,7 +101,7 @@ fn say(args: &RobotCompileArgs, file: &Path, compiled: &CompiledRobot) -> Result
             "sources_sha256": hash,
             "engine": engine,
         });
-        let text = serde_json::to_string_pretty(&said).map_err(Failure::work)?;
+        let text = prone_record::output::json_text(&said).map_err(Failure::work)?;
         writeln!(out, "{text}")?;
     } else {
         writeln!(

@@ -8,6 +8,7 @@ use prone_study::torque_map::compare::{self, Comparison, MaskCounts, WorstRow};
 
 use crate::Failure;
 use crate::args::CompareArgs;
+use crate::printed;
 
 pub(crate) fn run(args: &CompareArgs) -> Result<(), Failure> {
     let (a, b) = (super::read(&args.a)?, super::read(&args.b)?);
@@ -15,9 +16,9 @@ pub(crate) fn run(args: &CompareArgs) -> Result<(), Failure> {
         let (a, b) = (args.a.display(), args.b.display());
         Failure::Input(anyhow!("{a} and {b}: {error}"))
     })?;
-    let mut out = std::io::stdout().lock();
+    let mut out = printed::out();
     if args.json {
-        let text = serde_json::to_string_pretty(&comparison).map_err(Failure::work)?;
+        let text = prone_record::output::json_text(&comparison).map_err(Failure::work)?;
         writeln!(out, "{text}")?;
     } else {
         print(&comparison, args, &mut out)?;

@@ -11,6 +11,7 @@ use prone_study::torque_map::plot::{self, MapFile};
 
 use crate::args::PlotArgs;
 use crate::outputs::{Files, Kind};
+use crate::printed;
 use crate::{Failure, interrupt};
 
 pub(crate) fn run(args: &PlotArgs) -> Result<(), Failure> {
@@ -29,7 +30,7 @@ pub(crate) fn run(args: &PlotArgs) -> Result<(), Failure> {
     let artefacts =
         plot::artefacts(&map, &slices, &file, &crate::program()).map_err(Failure::work)?;
     interrupt::publish(|| Ok(output::publish(&args.out, &artefacts)?))?;
-    let mut out = std::io::stdout().lock();
+    let mut out = printed::out();
     let described = [output::RUN_FILE, FIGURES_FILE];
     for file in artefacts
         .keys()

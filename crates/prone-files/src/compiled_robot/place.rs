@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 
 use glam::DVec3;
 
+use prone::foreign_text;
 use prone::frames::{Frame, Point};
 use prone::robot::{Range, bounds};
 
@@ -151,6 +152,10 @@ impl Place<'_> {
     pub(super) fn name(&self, name: &str) -> Result<String, Violation> {
         match name.len() {
             0 => Err(self.violation("a name is empty")),
+            _ if name.contains(foreign_text::is_hidden) => {
+                let name = foreign_text::Quoted(name);
+                Err(self.violation(format!("a name has no letter that is not seen, not {name}")))
+            }
             1..=LONGEST_NAME => Ok(name.to_owned()),
             bytes => Err(self.violation(format!(
                 "a name of {bytes} bytes is longer than {LONGEST_NAME}"

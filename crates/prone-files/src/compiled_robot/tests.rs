@@ -114,7 +114,7 @@ fn robots() -> impl Strategy<Value = Robot> {
         let mut numbers = numbers.into_iter().cycle();
         let mut number = || numbers.next().unwrap();
         enlarge(&mut robot, scale);
-        robot.name = format!("\"{}\" \u{1F916}\n", number());
+        robot.name = format!("\"{}\" \u{1F916}", number());
         for body in &mut robot.bodies {
             body.mass *= 0.9 + 0.1 * number();
             body.contact_group = if flags[0] {

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use toml::Spanned;
 
+use prone::foreign_text::{Quoted, is_hidden};
 use prone::gait::cycle::{Approach, Cycle, Easing, Pull, Steering, Waypoint};
 use prone::gait::{LimitsPolicy, PhaseDuration};
 use prone::mapping::{ArmMode, MappingVariant};
@@ -13,6 +14,8 @@ use crate::curve_table::CurveTable;
 use crate::error::{FileError, Source};
 use crate::gait_file::{ArmName, LimitsName, MappingName};
 
+/// Longest name of a waypoint, bytes.
+const LONGEST_NAME: usize = 100;
 /// Largest angle of a joint in a file, degrees.
 const LARGEST_DEG: f64 = 360.0;
 /// Largest turn command, degrees: beyond it the sines of the steering's geometry are not small.
@@ -141,6 +144,14 @@ impl Source<'_> {
             .filter(|it| it.get_ref().trim().is_empty())
         {
             return Err(self.error(name.span(), "a waypoint's name is empty"));
+        }
+        let is_shown = |name: &str| name.len() <= LONGEST_NAME && !name.contains(is_hidden);
+        if let Some(name) = table.name.as_ref().filter(|it| !is_shown(it.get_ref())) {
+            let message = format!(
+                "a waypoint's name has at most {LONGEST_NAME} bytes, and no letter that is not seen, not {}",
+                Quoted(name.get_ref())
+            );
+            return Err(self.error(name.span(), message));
         }
         let mut joints = BTreeMap::new();
         for (joint, angle) in table.joints_deg {

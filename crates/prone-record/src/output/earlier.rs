@@ -70,10 +70,7 @@ pub(super) fn command(result: &Path) -> Option<String> {
     struct Made {
         command: String,
     }
-    let run_file = result.join(RUN_FILE);
-    let found = fs::metadata(&run_file).ok()?;
-    let is_small = found.is_file() && found.len() <= LARGEST_RUN_FILE;
-    let bytes = is_small.then(|| fs::read(run_file).ok()).flatten()?;
+    let bytes = text_file::read_bytes(&result.join(RUN_FILE), LARGEST_RUN_FILE).ok()?;
     let made: Made = serde_json::from_slice(&bytes).ok()?;
     Some(made.command)
 }

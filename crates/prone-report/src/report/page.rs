@@ -8,6 +8,8 @@ use std::collections::BTreeSet;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
+use prone::foreign_text;
+
 use super::folder::Given;
 use super::publication::Publication;
 use super::replay::Replay;
@@ -72,7 +74,8 @@ impl Page<'_> {
                 }
             }
         };
-        Ok((page.into_string(), replayed))
+        let page = page.into_string();
+        Ok((foreign_text::escaped_page(&page).into_owned(), replayed))
     }
 
     /// What a browser calls the page.

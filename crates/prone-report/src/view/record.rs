@@ -6,6 +6,8 @@ use std::path::Path;
 use serde::Serialize;
 use serde_json::Value;
 
+use prone::foreign_text;
+
 use super::pack::{self, Packed};
 use prone_record::origin::Origin;
 use prone_record::record_info::{Options, RecordInfo};
@@ -64,7 +66,7 @@ impl Run {
 
     /// Adds to the title what tells this run from another of the same gait and scene.
     pub fn set_apart(&mut self, by: &str) {
-        self.title = format!("{} ({by})", self.title);
+        self.title = format!("{} ({})", self.title, shown(by));
     }
 }
 
@@ -87,7 +89,7 @@ pub fn from_record(record: &Recorded) -> Run {
         } else {
             pack::wholes(values)
         };
-        (name.clone(), packed)
+        (shown(name), packed)
     });
     let mut channels: BTreeMap<String, Packed> = channels.collect();
     if record.rows.iter().all(|row| row.ground_from_root.is_none()) {
@@ -101,13 +103,17 @@ pub fn from_record(record: &Recorded) -> Run {
     let cuts = notes.len();
     notes.extend(gaps(record));
     Run {
-        title: format!("{} · {}", run.gait.name, run.scene.name),
+        title: shown(&format!("{} · {}", run.gait.name, run.scene.name)),
         facts: facts(run),
-        notes,
+        notes: notes.iter().map(|note| shown(note)).collect(),
         cuts,
         model,
         rows: record.rows.len(),
-        stages: record.stages.clone(),
+        stages: record
+            .stages
+            .iter()
+            .map(|(row, name)| (*row, shown(name)))
+            .collect(),
         channels,
         contacts: contacts(record),
     }
@@ -146,7 +152,7 @@ fn facts(run: &RecordInfo) -> Vec<(&'static str, String)> {
     ];
     let known = facts.into_iter();
     known
-        .filter_map(|(name, value)| Some((name, value?)))
+        .filter_map(|(name, value)| Some((name, shown(&value?))))
         .collect()
 }
 
@@ -183,7 +189,12 @@ fn strip_inertia(model: &mut Value) {
     }
 }
 
-/// Micrometres are enough for the eye.
+/// A text of the record as a page shows it.
+fn shown(text: &str) -> String {
+    foreign_text::escaped(text).into_owned()
+}
+
+/// Micrometres are enough for the eye, and letters that it does not see are shown.
 fn shorten(value: &mut Value) {
     match value {
         Value::Array(values) => values.iter_mut().for_each(shorten),
@@ -195,6 +206,7 @@ fn shorten(value: &mut Value) {
                 *number = short;
             }
         }
+        Value::String(text) => *text = shown(text),
         _ => {}
     }
 }
@@ -210,9 +222,9 @@ fn contacts(record: &Recorded) -> Option<Contacts> {
     let mut names: Vec<String> = Vec::new();
     let mut others = Vec::with_capacity(record.contacts.len());
     for contact in &record.contacts {
-        let known = names.iter().position(|name| *name == contact.with);
+        let known = names.iter().position(|name| *name == shown(&contact.with));
         others.push(known.unwrap_or_else(|| {
-            names.push(contact.with.clone());
+            names.push(shown(&contact.with));
             names.len() - 1
         }));
     }

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use prone::cost::CostError;
 use prone::cost::objective::NoMotor;
 use prone_record::measure::Measure;
-use prone_record::output::Artefacts;
+use prone_record::output::{self, Artefacts};
 use prone_record::resumption::{self, ResumptionError, STATE_FILE, Snapshot, Work};
 use prone_record::search::{Search, SearchEnd};
 use prone_record::search_plan::SearchPlan;
@@ -213,7 +213,7 @@ fn proceed<R: SearchRun>(
 
 /// A record as a file.
 pub(super) fn pretty(value: &impl Serialize) -> Result<Vec<u8>, SearchError> {
-    Ok(serde_json::to_vec_pretty(value)?)
+    Ok(output::json_text(value)?.into_bytes())
 }
 
 /// Figures and the list of them.
