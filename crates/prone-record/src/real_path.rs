@@ -30,7 +30,7 @@ pub enum NoRealPath {
 }
 
 /// A path without links; what does not exist yet is appended to what does.
-pub(crate) fn real_path(given: &Path) -> Result<PathBuf, NoRealPath> {
+pub fn real_path(given: &Path) -> Result<PathBuf, NoRealPath> {
     let given = if given.as_os_str().is_empty() {
         Path::new(".")
     } else {
