@@ -1,20 +1,22 @@
 //! `prone export`.
 
+mod bag;
+mod cycle;
 mod ffmpeg;
 mod filming;
 mod origin;
 
+use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 
-use prone::gait::cycle::{CheckedCycle, TimeScale};
-use prone_files::cycle_file;
-use prone_record::record_info::{Kind, RecordInfo};
+use prone_record::record_info::RecordInfo;
 use prone_record::recorded::{Recorded, RecordedModel};
 use prone_record::single_file;
-use prone_report::export::{key_frames, numpy, ros_log, table, timeline, urdf};
+use prone_report::export::ros_log::{self, RosLog};
+use prone_report::export::{numpy, table, urdf};
 
 use crate::args::{ExportArgs, Format};
 use crate::printed;
@@ -41,6 +43,10 @@ pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
     if is_film {
         let said = filming::run(args, &record, &out)?;
         say(&out, &said)?;
+    } else if args.format == Format::Bag {
+        let (log, said) = ros_log(args, &record)?;
+        bag::put(&out, &record, log)?;
+        say(&out, &said)?;
     } else {
         let (bytes, said) = of_tables(args, &record)?;
         put(&out, &bytes, &said)?;
@@ -61,27 +67,59 @@ fn say(out: &Path, said: &str) -> Result<(), Failure> {
 
 /// The content of a file that is made of the record's tables, and what it holds.
 fn of_tables(args: &ExportArgs, record: &Recorded) -> Result<(Vec<u8>, String), Failure> {
-    let said = |held: String| {
-        let gaps = record.unrecorded().into_iter();
-        let all: Vec<String> = std::iter::once(held).chain(gaps).collect();
-        all.join("; ")
-    };
-    let held = format!("{}, {}", span(record), joints(record));
     match args.format {
         Format::Csv => {
             let bytes = table::csv(record).map_err(Failure::work)?;
-            Ok((bytes, said(held)))
+            Ok((bytes, held(record, "")))
         }
         Format::Npz => {
             let bytes = numpy::archive(record).map_err(Failure::work)?;
-            Ok((bytes, said(held)))
+            Ok((bytes, held(record, "")))
         }
         Format::Mcap => {
-            let held = format!("{held}, {} contacts", record.contacts.len());
-            Ok((ros_log::log(record).map_err(Failure::work)?, said(held)))
+            let (log, said) = ros_log(args, record)?;
+            Ok((log.bytes, said))
         }
         _ => unreachable!("the other formats are made elsewhere"),
     }
+}
+
+/// The messages of ROS, and what they hold. What stands in the way of a description of the robot is
+/// said and no failure: the other topics do without.
+fn ros_log(args: &ExportArgs, record: &Recorded) -> Result<(RosLog, String), Failure> {
+    let description = description(args, record);
+    let text = description.as_ref().ok().map(String::as_str);
+    let log = ros_log::log(record, text).map_err(Failure::input)?;
+    let mut said = held(record, &format!(", {} contacts", record.contacts.len()));
+    if let Err(reason) = description {
+        let _ = write!(said, "; no /robot_description: {reason}");
+    }
+    Ok((log, said))
+}
+
+/// The robot as URDF, whose links have the frames of the record's bodies.
+fn description(args: &ExportArgs, record: &Recorded) -> anyhow::Result<String> {
+    let robot = match origin::recorded_robot(args, &record.run) {
+        Ok(robot) => robot,
+        Err(Failure::Input(error) | Failure::Work(error)) => return Err(error),
+        Err(_) => return Err(anyhow!("the robot was not read")),
+    };
+    if let Some(body) = urdf::shifted_link(&robot) {
+        return Err(anyhow!(
+            "body {} is not hinged at its own origin, where the frame of its link would be",
+            body.name
+        ));
+    }
+    let model = RecordedModel::read(&args.run)?;
+    Ok(urdf::from_record(&robot, &model)?)
+}
+
+/// What the tables hold, `more` of it, and what was never recorded.
+fn held(record: &Recorded, more: &str) -> String {
+    let held = format!("{}, {}{more}", span(record), joints(record));
+    let gaps = record.unrecorded().into_iter();
+    let all: Vec<String> = std::iter::once(held).chain(gaps).collect();
+    all.join("; ")
 }
 
 /// The content of a file that needs no table, and what it holds.
@@ -95,54 +133,8 @@ fn of_run(args: &ExportArgs, run: &RecordInfo) -> Result<(Vec<u8>, String), Fail
             let said = format!("{}, {bodies} links, {joints} hinges", robot.name);
             Ok((text.into_bytes(), said))
         }
-        _ => cycle(args, run),
+        _ => cycle::export(args, run),
     }
-}
-
-/// One commanded cycle.
-fn cycle(args: &ExportArgs, run: &RecordInfo) -> Result<(Vec<u8>, String), Failure> {
-    let gait = &run.gait;
-    if run.kind() == Kind::Pull {
-        return Err(Failure::Input(anyhow!(
-            "{} is a pull alone: xar and keyframes are a whole cycle, with its way back",
-            args.run.display()
-        )));
-    }
-    let robot = &origin::recorded_robot(args, run)?;
-    let unsaid = |what: &str| {
-        let run = args.run.display();
-        Failure::Input(anyhow!(
-            "{run} does not say {what}: there is no cycle to export"
-        ))
-    };
-    let text = gait.text.as_deref().ok_or_else(|| unsaid("its gait"))?;
-    let file = gait.file.as_deref().unwrap_or(&gait.name);
-    let cycle = cycle_file::parse(file, text).map_err(Failure::input)?;
-    let scale = run.options.time_scale();
-    let scale = scale.ok_or_else(|| unsaid("its time scale"))?;
-    let scale = TimeScale::new(scale).map_err(Failure::input)?;
-    let checked =
-        CheckedCycle::plan(robot, &robot.stops(), &cycle, 0.0, scale).map_err(Failure::input)?;
-    let is_xar = args.format == Format::Xar;
-    let tick = if is_xar {
-        1.0 / timeline::FRAME_RATE
-    } else {
-        key_frames::TICK
-    };
-    let frames = key_frames::from_cycle(&checked, tick).map_err(Failure::input)?;
-    let bytes = if is_xar {
-        timeline::xar(robot, checked.name(), &frames).into_bytes()
-    } else {
-        key_frames::json(robot, &checked, &frames).map_err(Failure::work)?
-    };
-    let said = format!(
-        "one cycle of {}, {:.2} s, {} key frames of {} joints",
-        checked.name(),
-        cycle.duration(scale),
-        frames.frames.len(),
-        robot.joints.len()
-    );
-    Ok((bytes, said))
 }
 
 /// Options of a camera go with pictures only.
@@ -158,7 +150,7 @@ fn refuse_camera(args: &ExportArgs) -> Result<(), Failure> {
         None => Ok(()),
         Some((option, _)) => Err(Failure::Input(anyhow!(
             "{option} goes with mp4, webp and gif, not with {}",
-            args.format.ending()
+            args.format.name()
         ))),
     }
 }
@@ -166,7 +158,10 @@ fn refuse_camera(args: &ExportArgs) -> Result<(), Failure> {
 /// Where the file goes: never over a file of the record, nor among them.
 fn place(args: &ExportArgs) -> Result<PathBuf, Failure> {
     let out = args.out.clone().unwrap_or_else(|| default_place(args));
-    record_folder::check_place(&out, &args.run)?;
+    match args.format {
+        Format::Bag => bag::check_place(&out, &args.run)?,
+        _ => record_folder::check_place(&out, &args.run)?,
+    }
     Ok(out)
 }
 
@@ -176,7 +171,7 @@ fn default_place(args: &ExportArgs) -> PathBuf {
     let name = run
         .file_name()
         .map_or("run".into(), |name| name.to_string_lossy());
-    PathBuf::from(format!("{name}.{}", args.format.ending()))
+    PathBuf::from(format!("{name}{}", args.format.ending()))
 }
 
 fn span(record: &Recorded) -> String {

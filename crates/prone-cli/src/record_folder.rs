@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 
 use prone_record::output;
+use prone_record::real_path::real_path;
 
 use crate::Failure;
 
@@ -33,6 +34,16 @@ pub(crate) fn check_place(out: &Path, run: &Path) -> Result<(), Failure> {
     let folder = folder_of("--out", out)?;
     let result = result(run)?;
     if folder.starts_with(&result) {
+        return Err(inside(out, &result));
+    }
+    Ok(())
+}
+
+/// Refuses a folder that is to be made of a record, in the record or the result that it is part of.
+pub(crate) fn check_folder_place(out: &Path, run: &Path) -> Result<(), Failure> {
+    let result = result(run)?;
+    let real = real_path(out).map_err(Failure::input)?;
+    if real.starts_with(&result) {
         return Err(inside(out, &result));
     }
     Ok(())

@@ -10,7 +10,7 @@ use std::fs;
 use prone_report::export::urdf;
 use serde_json::Value;
 
-use exporting::{exported, read};
+use exporting::{exported, read, read_beside};
 use short_crawl::record;
 
 /// Of the NAO that ships.
@@ -181,7 +181,19 @@ fn mcap_reads_the_log() {
             1.0,
         );
     }
-    assert_eq!(found["messages"], topics.len() * instants);
+    assert_eq!(found["messages"], (topics.len() - 1) * instants + 1);
+    // Whoever plays the log offers each topic as it was offered; the robot also to those who come late.
+    for (topic, channel) in topics {
+        let durability = u8::from(topic != "/robot_description") + 1;
+        let profile = channel["metadata"]["offered_qos_profiles"].as_str();
+        let line = format!("\n  durability: {durability}\n");
+        assert!(profile.unwrap().contains(&line), "{topic}: {profile:?}");
+    }
+    let description = &topics["/robot_description"];
+    assert_eq!(description["schema"], "std_msgs/msg/String");
+    assert_eq!(description["begin_ns"], 20_000_000);
+    let urdf = fs::read_to_string(exported(&home, "urdf", &[])).unwrap();
+    assert_eq!(description["first"]["data"], urdf);
     let (first, last) = (
         &topics["/joint_states"]["first"],
         &topics["/joint_states"]["last"],
@@ -238,6 +250,81 @@ fn mcap_reads_the_log() {
         (length(parts) - length(sum)).abs() < 1e-6,
         "{parts:?} is not {sum:?} long"
     );
+}
+
+/// By itself, and as a folder that `ros2 bag` plays.
+#[test]
+fn rosbags_reads_the_log_and_the_bag() {
+    let home = tempfile::tempdir().unwrap();
+    let (file, folder) = (exported(&home, "mcap", &[]), exported(&home, "bag", &[]));
+    let inside = folder.join("short.bag_0.mcap");
+    assert!(fs::read(&inside).unwrap() == fs::read(&file).unwrap());
+    let (Some(alone), Some(bag)) = (read("rosbags", &file), read("rosbags", &folder)) else {
+        return;
+    };
+    // What the log tells of itself is what metadata.yaml tells.
+    assert_eq!(alone, bag);
+    let rows = rows();
+    let instants = rows["time_s"].len();
+    let topics = bag["topics"].as_object().unwrap();
+    assert_eq!(bag["messages"], (topics.len() - 1) * instants + 1);
+    assert_eq!(bag["begin_ns"], 20_000_000);
+    near(
+        &bag["end_ns"],
+        number(rows["time_s"].last().unwrap()) * 1e9,
+        1.0,
+    );
+    for (name, topic) in topics {
+        let (count, qos) = match name.as_str() {
+            "/robot_description" => (
+                1,
+                serde_json::json!(["KEEP_LAST", 1, "RELIABLE", "TRANSIENT_LOCAL"]),
+            ),
+            _ => (
+                instants,
+                serde_json::json!(["KEEP_LAST", 10, "RELIABLE", "VOLATILE"]),
+            ),
+        };
+        assert_eq!(topic["qos"], serde_json::json!([qos]), "{name}");
+        assert_eq!(
+            (&topic["count"], &topic["read"]),
+            (&count.into(), &count.into()),
+            "{name}"
+        );
+    }
+}
+
+/// The whole of what Pinocchio, yourdfpy and `MuJoCo`'s importer make of the robot.
+#[test]
+fn engines_and_libraries_read_the_same_robot() {
+    let home = tempfile::tempdir().unwrap();
+    let file = exported(&home, "urdf", &[]);
+    let model = home.path().join("robot.xml");
+    fs::write(&model, prone_files::shipped::NAO.mjcf).unwrap();
+    // The manufacturer's whole mass of the V4, kg.
+    let whole = 5.19535;
+    if let Some(found) = read_beside("dynamics", &[&file, &model]) {
+        near(&found["mass"], whole, 1e-9);
+        near(&found["engine_mass"], whole, 1e-9);
+        // kg·m² and N·m: the file has six decimals of a mass, ten digits of an inertia.
+        near(&found["mass_matrix_differs"], 0.0, 1e-9);
+        near(&found["gravity_differs"], 0.0, 1e-9);
+        assert_eq!(found["freedoms"], 6 + JOINTS);
+        // One motor turns both HipYawPitch.
+        assert_eq!(found["freedoms_with_mimic"], 6 + JOINTS - 1);
+    }
+    if let Some(found) = read("mujoco", &file) {
+        near(&found["mass"], whole, 1e-9);
+        assert_eq!(found["joints"], JOINTS);
+        assert_eq!(found["equalities"], 1);
+    }
+    if let Some(found) = read("yourdfpy", &file) {
+        assert_eq!(found["valid"], true);
+        assert_eq!(found["said"], serde_json::json!([]));
+        assert_eq!(found["counts"], found["distinct"]);
+        let mimic = serde_json::json!({"RHipYawPitch": ["LHipYawPitch", 1.0, 0.0]});
+        assert_eq!(found["mimic"], mimic);
+    }
 }
 
 #[test]
@@ -347,6 +434,35 @@ fn key_frames_are_the_commands() {
             "extension"
         ]
     );
+    // How far each joint was behind, and where, is what the table says.
+    let mut largest = (0.0, String::new());
+    for (joint, lag) in joints
+        .iter()
+        .zip(found["largest_lag_by_joint"].as_array().unwrap())
+    {
+        let joint = joint.as_str().unwrap();
+        let command = rows[&format!("{joint}_cmd_rad")].iter();
+        let lags = command.zip(&rows[&format!("{joint}_rad")]);
+        let lags = lags.map(|(command, angle)| (number(command) - number(angle)).abs());
+        let lags: Vec<f64> = lags.collect();
+        let expected = lags.iter().copied().fold(0.0, f64::max);
+        assert_eq!(lag["joint"], joint);
+        near(&lag["lag_rad"], expected, 1e-9);
+        let time = lag["time_s"].as_f64().unwrap();
+        let row = rows["time_s"]
+            .iter()
+            .position(|row| number(row) >= time)
+            .unwrap();
+        near(&lag["lag_rad"], lags[row], 1e-9);
+        if expected > largest.0 {
+            largest = (expected, joint.to_owned());
+        }
+    }
+    assert!(
+        largest.0 > 0.1,
+        "{largest:?}: the soft servos of a crawl lag"
+    );
+    assert_eq!(found["largest_lag"]["joint"], largest.1);
     // Straight lines between them lead past what was commanded at each row.
     let tolerance = found["tolerance_rad"].as_f64().unwrap();
     for (row, time) in rows["time_s"].iter().map(|time| number(time)).enumerate() {
@@ -387,6 +503,8 @@ fn python_reads_the_timeline() {
     assert_eq!(found["version"], "3");
     assert_eq!(found["fps"], "25");
     assert_eq!(found["links"], 2);
+    let tooltip = found["tooltips"][1].as_str().unwrap();
+    assert!(tooltip.contains("ShoulderPitch is up to "), "{tooltip}");
     assert_eq!(found["tangents"], serde_json::json!(["linear"]));
     let curves = found["curves"].as_object().unwrap();
     assert_eq!(curves.len(), JOINTS);

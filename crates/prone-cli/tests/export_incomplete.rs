@@ -140,18 +140,183 @@ fn robot_and_cycle_need_no_table() {
     let home = home.path();
     let run = changed(home, "rows.csv", |_| String::new());
     fs::remove_file(run.join("contacts.csv")).unwrap();
-    for format in ["urdf", "keyframes", "xar"] {
-        let all = whole(format, home);
-        let (code, said, bytes) = export(&run, format, home);
-        assert_eq!((code, said.as_str()), (Some(0), ""), "{format}");
-        assert!(bytes == all, "{format}");
-    }
+    let all = whole("urdf", home);
+    let (code, said, bytes) = export(&run, "urdf", home);
+    assert_eq!((code, said.as_str()), (Some(0), ""));
+    assert!(bytes == all);
+    // The same cycle; how far the joints were behind it is not known without the rows.
+    let without_lag = |bytes: &[u8]| {
+        let mut frames: serde_json::Value = serde_json::from_slice(bytes).unwrap();
+        let lag = frames["largest_lag"].take();
+        frames["largest_lag_by_joint"].take();
+        (lag, frames)
+    };
+    let (lag, all) = without_lag(&whole("keyframes", home));
+    assert!(lag.is_object());
+    let (code, said, bytes) = export(&run, "keyframes", home);
+    assert_eq!((code, said.as_str()), (Some(0), ""));
+    assert_eq!(without_lag(&bytes), (serde_json::Value::Null, all));
+    let (code, said, bytes) = export(&run, "xar", home);
+    assert_eq!((code, said.as_str()), (Some(0), ""));
+    let unknown = "how far the joints were behind their commands is unknown";
+    assert!(String::from_utf8(bytes).unwrap().contains(unknown));
+    // Nor is it of rows that were cut off: a larger lag may be among those that are missing.
+    let cut = changed(home, "rows.csv", |text| without(text, |line, _| line > 51));
+    let (_, _, bytes) = export(&cut, "keyframes", home);
+    assert_eq!(without_lag(&bytes).0, serde_json::Value::Null);
+    let run = changed(home, "rows.csv", |_| String::new());
     let (code, said, bytes) = export(&run, "csv", home);
     assert_eq!((code, bytes.len()), (Some(2), 0));
     assert!(
         said.ends_with("is not a recorded run: it has no rows.csv\n"),
         "{said}"
     );
+}
+
+/// The last stretch, 0.115 s at nearly the speed limit of `HeadYaw`, ends 15 ms after a tick of 1/25 s:
+/// a line to that tick would be too fast.
+#[test]
+fn no_line_is_faster_than_its_command_and_none_than_a_joint_may_be() {
+    let home = tempfile::tempdir().unwrap();
+    let home = home.path();
+    let with = |change: &dyn Fn(&mut serde_json::Value)| {
+        changed(home, "run.json", |text| {
+            let mut run: serde_json::Value = serde_json::from_str(text).unwrap();
+            change(&mut run);
+            run.to_string()
+        })
+    };
+    let short = with(&|run| {
+        let gait = run["gait"]["text"].as_str().unwrap();
+        let changes = [
+            (
+                "[approach]\ntime_s = 0.5",
+                "[approach]\ntime_s = 0.115\neasing = \"linear\"",
+            ),
+            ("{ HeadPitch = 10,", "{ HeadPitch = 10, LAnklePitch = -20,"),
+            (
+                "{ LShoulderPitch = -53,",
+                "{ HeadYaw = 45, LAnklePitch = -65, LShoulderPitch = -53,",
+            ),
+        ];
+        let gait = changes.iter().fold(gait.to_owned(), |gait, (from, to)| {
+            assert!(gait.contains(from), "{from}");
+            gait.replace(from, to)
+        });
+        run["gait"]["text"] = gait.into();
+    });
+    for format in ["xar", "keyframes"] {
+        let (code, said, _) = export(&short, format, home);
+        assert_eq!((code, said.as_str()), (Some(0), ""), "{format}");
+    }
+    let fast = with(&|run| run["options"]["time_scale"] = 0.5.into());
+    for format in ["xar", "keyframes"] {
+        let (code, said, bytes) = export(&fast, format, home);
+        assert_eq!((code, bytes.len()), (Some(2), 0), "{format}: {said}");
+        assert!(said.contains("ShoulderPitch would need "), "{said}");
+        assert!(said.contains("above its limit of 7.45 rad/s"), "{said}");
+    }
+}
+
+#[test]
+fn a_timeline_is_for_a_robot_that_choregraphe_knows() {
+    let home = tempfile::tempdir().unwrap();
+    let home = home.path();
+    let run = changed(home, "robot.compiled.json", |text| {
+        text.replace("\"HeadYaw\"", "\"NeckYaw\"")
+    });
+    let (code, said, bytes) = export(&run, "xar", home);
+    assert_eq!((code, bytes.len()), (Some(2), 0), "{said}");
+    assert_eq!(
+        said,
+        "error: Choregraphe moves the hinges of a NAO, and has no joint \"NeckYaw\" of NAO H25 V4: \
+         export keyframes instead\n"
+    );
+    let (code, said, _) = export(&run, "keyframes", home);
+    assert_eq!((code, said.as_str()), (Some(0), ""));
+}
+
+/// Two feet whose names differ in a sign that ROS has not, and an obstacle that begins with a digit.
+#[test]
+fn topics_of_names_that_ros_has_not_are_valid_and_distinct() {
+    let home = tempfile::tempdir().unwrap();
+    let home = home.path();
+    let rename = |text: &str| {
+        let feet = text.replace("LFoot", "Foot.1").replace("RFoot", "Foot-1");
+        feet.replace("LHand", "Foot_1")
+    };
+    let run = changed(home, "model.json", rename);
+    let contacts = fs::read_to_string(run.join("contacts.csv")).unwrap();
+    let mut lines: Vec<String> = contacts.lines().map(rename).collect();
+    let with = lines.iter_mut().find(|line| line.contains("torso,floor"));
+    let with = with.unwrap();
+    *with = with.replace("torso,floor", "torso,2 × 4");
+    fs::write(run.join("contacts.csv"), lines.join("\n") + "\n").unwrap();
+    let (code, said, bytes) = export(&run, "mcap", home);
+    assert_eq!((code, said.as_str()), (Some(0), ""));
+    let log = String::from_utf8_lossy(&bytes);
+    for topic in [
+        "/contacts/Foot_1/floor",
+        "/contacts/Foot_1_2/floor",
+        "/contacts/Foot_1_3/floor",
+        "/contacts/torso/thing_2_4",
+    ] {
+        assert!(log.contains(topic), "{topic}");
+    }
+    // The robot in the record has other bodies now: there is nothing that describes these.
+    assert!(!log.contains("/robot_description"));
+    let twice = changed(home, "model.json", |text| text.replace("RFoot", "LFoot"));
+    let (code, said, bytes) = export(&twice, "mcap", home);
+    assert_eq!((code, bytes.len()), (Some(2), 0));
+    assert!(
+        said.contains("two frames of the record are called \"LFoot\""),
+        "{said}"
+    );
+}
+
+#[test]
+fn a_bag_replaces_an_earlier_bag_and_nothing_else() {
+    let home = tempfile::tempdir().unwrap();
+    let home = home.path();
+    let run = changed(home, "rows.csv", str::to_owned);
+    let bag = |out: &Path| {
+        let (run, at) = (run.to_str().unwrap(), out.to_str().unwrap());
+        let done = prone(&["export", run, "--format", "bag", "--out", at]);
+        (done.status.code(), String::from_utf8(done.stderr).unwrap())
+    };
+    let out = home.join("out");
+    for _ in 0..2 {
+        assert_eq!(bag(&out), (Some(0), String::new()));
+    }
+    let names = fs::read_dir(&out)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name());
+    let mut names: Vec<_> = names.collect();
+    names.sort();
+    assert_eq!(names, ["metadata.yaml", "out_0.mcap", "run.json"]);
+    let metadata = fs::read_to_string(out.join("metadata.yaml")).unwrap();
+    assert!(metadata.contains("  relative_file_paths:\n    - \"out_0.mcap\"\n"));
+    fs::write(out.join("notes.txt"), b"mine").unwrap();
+    let (other, photos) = (home.join("other"), home.join("photos"));
+    fs::create_dir(&other).unwrap();
+    for name in ["run.json", "rows.csv"] {
+        fs::copy(run.join(name), other.join(name)).unwrap();
+    }
+    fs::create_dir(&photos).unwrap();
+    fs::write(photos.join("metadata.yaml"), b"theirs").unwrap();
+    for (place, reason) in [
+        (out, "prone did not write notes.txt"),
+        (run.clone(), "not an earlier bag"),
+        (run.join("bag"), "keeps its own files only"),
+        (other, "is not an earlier"),
+        (photos, "it holds no run.json"),
+        (run.join("rows.csv"), "is not a folder"),
+    ] {
+        let (code, said) = bag(&place);
+        assert_eq!(code, Some(2), "{said}");
+        assert!(said.contains(reason), "{said}");
+    }
+    assert_eq!(fs::read_dir(&run).unwrap().count(), FILES.len());
 }
 
 #[test]

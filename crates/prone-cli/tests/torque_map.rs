@@ -137,7 +137,7 @@ fn signals_keep_the_rows_and_leave_no_half_written_map() {
         let journal = journal(&out);
         let rows = fs::read_to_string(&journal).unwrap().lines().count() - 1;
         let expected = format!(
-            "stopped; {rows} of 210 rows are in {}, and are taken over by the same command\n",
+            "stopping after this row; Ctrl-C again ends at once\nstopped; {rows} of 210 rows are in {}, and are taken over by the same command\n",
             journal.display()
         );
         assert_eq!(message, expected);
@@ -185,7 +185,7 @@ fn what_cannot_be_built_is_refused_before_anything_is_made() {
         ),
         ("nao/robot.xml", &["--robot", nao], "would overwrite"),
         ("none/map.csv", &[], "No such file or directory"),
-        ("robot", &[], "it is not a regular file"),
+        ("robot", &[], "it is a folder"),
         ("link", &[], "it is a link to something that does not exist"),
     ] {
         let refused = build("statics", &at(out), more).output().unwrap();
@@ -213,8 +213,7 @@ fn a_journal_of_other_options_is_kept_until_it_is_discarded() {
     let refused = build("statics", &out, &[]).output().unwrap();
     let message = String::from_utf8(refused.stderr).unwrap();
     assert_eq!(refused.status.code(), Some(2), "{message}");
-    let expected =
-        "regime was \"table\", and is \"none, the study's stops hold\" now; --restart discards it";
+    let expected = "source was \"simulation\", and is \"statics\" now; --restart discards it";
     assert!(message.contains(expected), "{message}");
     let (_, log) = succeeded(build("statics", &out, &["--restart"]).output().unwrap());
     assert!(log.starts_with("done in "), "nothing is taken over: {log}");

@@ -62,7 +62,7 @@ fn a_record_becomes_a_page_beside_it() {
     let rows = format!("{run}/rows.csv");
     let (code, _, message) = viewed(&[&run, "--out", &rows]);
     assert_eq!(code, Some(2));
-    assert!(message.contains("would overwrite"), "{message}");
+    assert!(message.contains("keeps its own files only"), "{message}");
 
     // Nor is anything put among the files of a record.
     let among = format!("{run}/page.html");

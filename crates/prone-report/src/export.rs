@@ -9,9 +9,11 @@
 //! | [`key_frames`] | one cycle as JSON | reinforcement learning |
 //! | [`timeline`] | one cycle as a Choregraphe project | Choregraphe |
 //!
+//! The two of one cycle say how far the record's joints were behind it ([`lag`]).
 //! Names carry their unit in every format that has room for it; docs/export.md lists them.
 
 pub mod key_frames;
+pub mod lag;
 pub mod numpy;
 pub mod ros_log;
 pub mod table;

@@ -13,6 +13,7 @@ use prone::gait::cycle::{CheckedCycle, TimeScale};
 use prone_files::cycle_file;
 use prone_record::record_info::RecordInfo;
 use prone_record::recorded::{Recorded, RecordedModel, compiled_robot};
+use prone_report::export::lag::Lags;
 use prone_report::export::{key_frames, numpy, ros_log, table, timeline, urdf};
 use prone_report::figures::PublishedRange;
 use prone_report::report::{
@@ -359,7 +360,7 @@ fn a_whole_record_is_exported_with_its_robot() {
     let joints = record.joints.len();
     assert_eq!(lines(table::csv(&record).unwrap()).len(), 1 + 3 * joints);
     assert!(numpy::archive(&record).unwrap().starts_with(b"PK"));
-    let counts = messages(&ros_log::log(&record).unwrap());
+    let counts = messages(&ros_log::log(&record, None).unwrap().bytes);
     let topics: Vec<&str> = counts.keys().map(String::as_str).collect();
     let contact = format!("/contacts/{}/floor", record.bodies[1].name);
     assert_eq!(
@@ -383,12 +384,63 @@ fn a_whole_record_is_exported_with_its_robot() {
     let scale = TimeScale::new(info.options.time_scale().unwrap()).unwrap();
     let checked = CheckedCycle::plan(robot, &robot.stops(), &cycle, 0.0, scale).unwrap();
     let frames = key_frames::from_cycle(&checked, key_frames::TICK).unwrap();
+    let lags = Lags::of(robot, &record);
     assert!(
-        key_frames::json(robot, &checked, &frames)
+        key_frames::json(robot, &checked, &frames, &lags)
             .unwrap()
             .starts_with(b"{")
     );
-    assert!(timeline::xar(robot, checked.name(), &frames).contains("LKneePitch"));
+    let behind = lags.sentence("the simulation").unwrap();
+    let timeline = timeline::xar(robot, checked.name(), &frames, &lags, &behind);
+    assert!(timeline.contains("LKneePitch") && timeline.contains(&behind));
+    // As fast as the cycle itself, and no faster than a slower joint allows.
+    frames.check_speeds(robot).unwrap();
+    let mut slow = robot.clone();
+    slow.joints[0].speed_limit = 0.0;
+    let too_fast = frames.check_speeds(&slow).unwrap_err();
+    assert_eq!(too_fast.joint, slow.joints[0].name);
+}
+
+/// Names that a robot's files would not pass, as records may hold them.
+#[test]
+fn a_urdf_has_one_name_for_each_link_and_joint() {
+    let home = folder(made::whole);
+    let info = RecordInfo::read(home.path()).unwrap();
+    let compiled = compiled_robot(home.path(), &info).unwrap();
+    let mut model = RecordedModel::read(home.path()).unwrap();
+    let mut robot = compiled.into_robot();
+    let text = urdf::from_record(&robot, &model).unwrap();
+    assert!(text.contains("<mujoco><compiler fusestatic=\"false\"/></mujoco>"));
+    assert_eq!(text.matches("<mimic ").count(), 1);
+    assert!(urdf::shifted_link(&robot).is_none());
+    // A body that is fixed and weighs nothing, and a hinge with the name that its joint would get.
+    let last = robot.bodies.len() - 1;
+    robot.bodies[last].joint = None;
+    robot.bodies[last].mass = 0.0;
+    robot.joints[0].name = format!("{}_fixed", robot.bodies[last].name);
+    let text = urdf::from_record(&robot, &model).unwrap();
+    let fixed = format!("<joint name=\"{}_\" type=\"fixed\">", robot.joints[0].name);
+    assert_eq!(text.matches(&fixed).count(), 1, "{fixed}");
+    // A link that does not say what it weighs is 1 kg to Bullet.
+    assert_eq!(
+        text.matches("<mass ").count(),
+        text.matches("<link ").count()
+    );
+    robot.joints[1].name = robot.joints[2].name.clone();
+    let said = urdf::from_record(&robot, &model).unwrap_err().to_string();
+    assert!(
+        said.contains("two joints of the robot are called"),
+        "{said}"
+    );
+    for bodies in [0, 1] {
+        robot.bodies[bodies].name = String::new();
+        model.bodies[bodies].name = String::new();
+    }
+    let said = urdf::from_record(&robot, &model).unwrap_err().to_string();
+    assert!(
+        said.contains("one of the links of the robot has no name"),
+        "{said}"
+    );
 }
 
 #[test]
@@ -460,7 +512,7 @@ fn a_sparse_record_is_exported_as_far_as_it_goes() {
             .windows(8)
             .any(|bytes| bytes == f64::NAN.to_le_bytes())
     );
-    let counts = messages(&ros_log::log(&record).unwrap());
+    let counts = messages(&ros_log::log(&record, None).unwrap().bytes);
     let expected = [("/joint_states".to_owned(), 3), ("/tf".to_owned(), 3)];
     assert_eq!(counts, BTreeMap::from(expected));
 }

@@ -14,15 +14,19 @@ const EDGE: std::ops::RangeInclusive<usize> = 16..=4096;
 Examples:
   prone crawl run low-175 --record out/low
   prone export out/low --format mcap               for Foxglove, Rerun, PlotJuggler
+  prone export out/low --format bag --out low_bag  a folder for `ros2 bag play low_bag`
   prone export out/low --format npz --out low.npz
   prone export out/low --format mp4 --view follow  needs ffmpeg
   prone export out/low --format gif --view side --size 480x270 --fps 10
 
 RUN is a folder that `prone crawl run --record` has written, or one of pulls/ and crawls/ in the
-result of `prone reproduce`. csv, mcap, npz and the pictures show what was simulated; urdf is the
-robot; xar and keyframes are one cycle as the gait commands it, without turning. Of a record that was
-cut off, csv and the pictures show the instants that are left, mcap and npz also the contacts that
-are left; the exit code is then 2. urdf, xar and keyframes need neither.")]
+result of `prone reproduce`. csv, mcap, bag, npz and the pictures show what was simulated; urdf is the
+robot; xar and keyframes are one cycle as the gait commands it, without turning, and say how far the
+simulated joints were behind it. They are refused where straight lines between the key frames make a
+joint faster than its manufacturer allows, xar also for a robot that Choregraphe does not know. Of a
+record that was cut off, csv and the pictures show the instants that are left, mcap, bag and npz also
+the contacts that are left; the exit code is then 2. urdf, xar and keyframes need neither. A bag
+replaces nothing but an earlier bag of prone.")]
 pub(crate) struct ExportArgs {
     /// Folder of a recorded run
     #[arg(value_name = "RUN")]
@@ -30,7 +34,8 @@ pub(crate) struct ExportArgs {
     /// Format of the file
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub(crate) format: Format,
-    /// Where to write [default: the run's name with the format's ending, in the working directory]
+    /// Where to write; of a bag, the folder [default: the run's name with the format's ending, in the
+    /// working directory]
     #[arg(long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
     /// Robot folder, if the run's is not where it was [default: that of the run]
@@ -57,8 +62,10 @@ pub(crate) struct ExportArgs {
 pub(crate) enum Format {
     /// One tidy table: time, joint, command, position, velocity, effort
     Csv,
-    /// ROS 2 messages: joint states, tf, contacts
+    /// ROS 2 messages: joint states, tf, contacts, robot description
     Mcap,
+    /// The same as a folder with metadata.yaml, as `ros2 bag` writes it
+    Bag,
     /// Arrays of numpy
     Npz,
     /// The robot
@@ -90,20 +97,38 @@ impl Format {
     pub(crate) const fn parts(self) -> &'static [Part] {
         match self {
             Self::Csv | Self::Mp4 | Self::Webp | Self::Gif => &[Part::Rows],
-            Self::Npz | Self::Mcap => &[Part::Rows, Part::Contacts],
+            Self::Npz | Self::Mcap | Self::Bag => &[Part::Rows, Part::Contacts],
             Self::Urdf | Self::Xar | Self::Keyframes => &[],
         }
     }
 
-    /// The file's ending.
+    /// What follows the run's name where the file or folder has no other.
     pub(crate) const fn ending(self) -> &'static str {
+        match self {
+            Self::Csv => ".csv",
+            Self::Mcap => ".mcap",
+            // A name in `.bag` is a file of ROS 1 to those who read bags.
+            Self::Bag => "_bag",
+            Self::Npz => ".npz",
+            Self::Urdf => ".urdf",
+            Self::Xar => ".xar",
+            Self::Keyframes => ".keyframes.json",
+            Self::Mp4 => ".mp4",
+            Self::Webp => ".webp",
+            Self::Gif => ".gif",
+        }
+    }
+
+    /// Its name, as it is typed.
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Csv => "csv",
             Self::Mcap => "mcap",
+            Self::Bag => "bag",
             Self::Npz => "npz",
             Self::Urdf => "urdf",
             Self::Xar => "xar",
-            Self::Keyframes => "keyframes.json",
+            Self::Keyframes => "keyframes",
             Self::Mp4 => "mp4",
             Self::Webp => "webp",
             Self::Gif => "gif",

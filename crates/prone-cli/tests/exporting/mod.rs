@@ -30,11 +30,16 @@ pub(crate) fn exported(home: &TempDir, format: &str, more: &[&str]) -> PathBuf {
 
 /// What another program finds in a file; `None` where that program is not installed.
 pub(crate) fn read(kind: &str, file: &Path) -> Option<Value> {
+    read_beside(kind, &[file])
+}
+
+/// The same of a program that compares files.
+pub(crate) fn read_beside(kind: &str, files: &[&Path]) -> Option<Value> {
     let python = std::env::var("PRONE_READERS_PYTHON").unwrap_or_else(|_| "python3".to_owned());
     let script = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/readers/read.py");
     let done = Command::new(&python)
         .args([script, kind])
-        .arg(file)
+        .args(files)
         .output();
     let missing = match done {
         Ok(done) if done.status.code() == Some(NO_PACKAGE) => text(&done.stderr),

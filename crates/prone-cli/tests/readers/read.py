@@ -1,6 +1,6 @@
 """Reads an export with a program of somebody else and prints what it found as one JSON object.
 
-    python3 read.py FORMAT FILE
+    python3 read.py FORMAT FILE [FILE]
 
 Nothing here knows prone: libraries only are asked.
 """
@@ -24,7 +24,7 @@ def mcap(path):
         for schema, channel, message, decoded in reader.iter_decoded_messages():
             topic = topics.setdefault(
                 channel.topic,
-                {"schema": schema.name, "schema_encoding": schema.encoding,
+                {"schema": schema.name, "schema_encoding": schema.encoding, "metadata": channel.metadata,
                  "encoding": channel.message_encoding, "count": 0, "times": [], "first": None},
             )
             topic["count"] += 1
@@ -42,6 +42,7 @@ def mcap(path):
             "library": header.library,
             "messages": summary.statistics.message_count,
             "chunks": summary.statistics.chunk_count,
+            "channels": sorted(channel.topic for channel in summary.channels.values()),
             "topics": topics,
         }
 
@@ -52,6 +53,39 @@ def as_plain(message):
     if isinstance(message, (str, bytes, int, float)):
         return message
     return [as_plain(part) for part in message]
+
+
+def rosbags(path):
+    """A log by itself or a bag's folder, through the reader that takes the one or the other."""
+    from rosbags.rosbag2 import Reader
+    from rosbags.typesys import Stores, get_typestore, get_types_from_msg
+
+    with Reader(path) as reader:
+        types = get_typestore(Stores.EMPTY)
+        for connection in reader.connections:
+            types.register(get_types_from_msg(connection.msgdef.data, connection.msgtype))
+        counts = {}
+        for connection, _, raw in reader.messages():
+            types.deserialize_cdr(raw, connection.msgtype)
+            counts[connection.topic] = counts.get(connection.topic, 0) + 1
+        return {
+            "messages": reader.message_count,
+            "begin_ns": reader.start_time,
+            # The end is the first instant after the last message.
+            "end_ns": reader.end_time - 1,
+            "topics": {
+                connection.topic: {
+                    "read": counts[connection.topic],
+                    "count": connection.msgcount,
+                    "type": connection.msgtype,
+                    "qos": [
+                        [profile.history.name, profile.depth, profile.reliability.name, profile.durability.name]
+                        for profile in connection.ext.offered_qos_profiles
+                    ],
+                }
+                for connection in reader.connections
+            },
+        }
 
 
 def rerun(path):
@@ -134,6 +168,94 @@ def urdf(path):
     return found
 
 
+def dynamics(path, engine_path):
+    """Pinocchio's URDF beside MuJoCo's model: mass matrix and gravity torques in some postures."""
+    import mujoco
+    import numpy
+    import pinocchio
+
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    floating = pinocchio.JointModelFreeFlyer()
+    urdf = pinocchio.buildModelFromXML(text, floating)
+    data = urdf.createData()
+    model = mujoco.MjModel.from_xml_path(engine_path)
+    # URDF has no rotors, and a mass matrix knows no springs.
+    model.dof_armature[:] = 0.0
+    engine = mujoco.MjData(model)
+    hinges = [joint for joint in range(model.njnt) if model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_HINGE]
+    random = numpy.random.default_rng(1)
+    masses, torques = 0.0, 0.0
+    for _ in range(5):
+        turn = random.normal(size=4)
+        turn /= numpy.linalg.norm(turn)
+        engine.qpos[:3], engine.qpos[3:7] = random.normal(size=3), turn
+        posture = pinocchio.neutral(urdf)
+        posture[:3], posture[3:7] = engine.qpos[:3], [*turn[1:], turn[0]]
+        # Speeds of MuJoCo from those of Pinocchio, whose root also moves along its own axes.
+        speeds = numpy.zeros((model.nv, urdf.nv))
+        rotation = numpy.zeros(9)
+        mujoco.mju_quat2Mat(rotation, turn)
+        speeds[:3, :3], speeds[3:6, 3:6] = rotation.reshape(3, 3), numpy.eye(3)
+        for hinge in hinges:
+            ours = urdf.joints[urdf.getJointId(model.joint(hinge).name)]
+            angle = random.uniform(*model.jnt_range[hinge])
+            engine.qpos[model.jnt_qposadr[hinge]] = posture[ours.idx_q] = angle
+            speeds[model.jnt_dofadr[hinge], ours.idx_v] = 1.0
+        mujoco.mj_forward(model, engine)
+        expected = numpy.zeros((model.nv, model.nv))
+        mujoco.mj_fullM(model, engine, expected)
+        upper = numpy.triu(pinocchio.crba(urdf, data, posture))
+        found = upper + numpy.triu(upper, 1).T
+        masses = max(masses, abs(speeds.T @ expected @ speeds - found).max())
+        found = pinocchio.computeGeneralizedGravity(urdf, data, posture)
+        torques = max(torques, abs(speeds.T @ engine.qfrc_bias - found).max())
+    coupled = pinocchio.buildModelFromXML(text, floating, mimic=True)
+    return {
+        "mass": sum(inertia.mass for inertia in urdf.inertias),
+        "engine_mass": float(model.body_mass.sum()),
+        "freedoms": urdf.nv,
+        "freedoms_with_mimic": coupled.nv,
+        "mass_matrix_differs": float(masses),
+        "gravity_differs": float(torques),
+    }
+
+
+def mujoco_import(path):
+    """The URDF through MuJoCo's own importer."""
+    import mujoco
+
+    model = mujoco.MjModel.from_xml_path(path)
+    return {"mass": float(model.body_mass.sum()), "bodies": model.nbody, "joints": model.njnt,
+            "equalities": model.neq}
+
+
+def yourdfpy(path):
+    import logging
+
+    import yourdfpy as library
+
+    class Kept(logging.Handler):
+        def emit(self, record):
+            said.append(record.getMessage())
+
+    said = []
+    logging.getLogger().addHandler(Kept(level=logging.WARNING))
+    robot = library.URDF.load(path)
+    elements = [robot.robot.links, robot.robot.joints, robot.robot.materials]
+    names = [[element.name for element in listed] for listed in elements]
+    return {
+        "valid": robot.validate(),
+        "said": said + [str(error) for error in robot.errors],
+        # Of links, joints and materials.
+        "counts": [len(found) for found in names],
+        "distinct": [len(set(found) - {"", None}) for found in names],
+        "joints": robot.num_actuated_joints,
+        "mimic": {joint.name: [joint.mimic.joint, joint.mimic.multiplier, joint.mimic.offset]
+                  for joint in robot.robot.joints if joint.mimic},
+    }
+
+
 def xar(path):
     import xml.etree.ElementTree as tree
 
@@ -144,6 +266,7 @@ def xar(path):
     return {
         "root": root.tag,
         "version": root.get("xar_version"),
+        "tooltips": [box.get("tooltip") for box in root.iter("{%s}Box" % space["c"])],
         "fps": timeline.get("fps"),
         "size": timeline.get("size"),
         "links": len(root.findall(".//c:Link", space)),
@@ -197,14 +320,15 @@ def ffmpeg(_):
     return {"path": imageio_ffmpeg.get_ffmpeg_exe()}
 
 
-READERS = {"mcap": mcap, "rerun": rerun, "npz": npz, "urdf": urdf, "xar": xar, "gif": picture,
-           "webp": picture, "mp4": video, "ffmpeg": ffmpeg}
+READERS = {"mcap": mcap, "rosbags": rosbags, "rerun": rerun, "npz": npz, "urdf": urdf, "dynamics": dynamics,
+           "mujoco": mujoco_import, "yourdfpy": yourdfpy, "xar": xar, "gif": picture, "webp": picture,
+           "mp4": video, "ffmpeg": ffmpeg}
 
 if __name__ == "__main__":
-    kind, file = sys.argv[1:]
+    kind, *files = sys.argv[1:]
     try:
         # pybullet greets on standard output.
-        found = READERS[kind](file)
+        found = READERS[kind](*files)
     except ModuleNotFoundError as error:
         print(f"no {error.name}", file=sys.stderr)
         sys.exit(77)

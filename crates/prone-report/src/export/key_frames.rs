@@ -7,6 +7,8 @@ use prone::robot::{JointAngles, Robot};
 
 use prone_record::output;
 
+use super::lag::{Lag, Lags};
+
 /// Time between two places where a key frame of a file may be, s: that of the motor boards.
 pub const TICK: f64 = 0.01;
 
@@ -34,8 +36,59 @@ pub struct KeyFrame {
     pub angles: JointAngles,
 }
 
+/// A joint that straight lines between key frames would move faster than its manufacturer allows.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error(
+    "{joint} would move at {speed:.2} rad/s from {from_s:.2} s to {to_s:.2} s of the cycle, above its \
+     limit of {limit:.2} rad/s: crawl with a larger --time-scale"
+)]
+pub struct TooFast {
+    /// Name of the joint.
+    pub joint: String,
+    /// Its speed along the line, rad/s.
+    pub speed: f64,
+    /// Its limit, rad/s.
+    pub limit: f64,
+    /// Where the line begins, s since the pull began.
+    pub from_s: f64,
+    /// Where it ends.
+    pub to_s: f64,
+}
+
+impl KeyFrames {
+    /// Checks straight lines between the key frames against the speed limits of their robot.
+    ///
+    /// # Errors
+    /// [`TooFast`] with the joint that is above its limit by the largest factor.
+    pub fn check_speeds(&self, robot: &Robot) -> Result<(), TooFast> {
+        /// Rounding of the angles' difference.
+        const ROUNDING: f64 = 1e-9;
+        let seconds = |frame: &KeyFrame| frame.tick as f64 * self.tick_s;
+        let lines = self.frames.windows(2).flat_map(|pair| {
+            let (from_s, to_s) = (seconds(&pair[0]), seconds(&pair[1]));
+            let ways = pair[0].angles.pairs(&pair[1].angles);
+            let ways = robot.joints.iter().zip(ways);
+            ways.map(move |(joint, (from, to))| TooFast {
+                joint: joint.name.clone(),
+                speed: (to - from).abs() / (to_s - from_s),
+                limit: joint.speed_limit,
+                from_s,
+                to_s,
+            })
+        });
+        let share = |line: &TooFast| line.speed / line.limit;
+        // NaN is above all numbers.
+        let fastest = lines.max_by(|a, b| share(a).abs().total_cmp(&share(b).abs()));
+        match fastest {
+            Some(line) if share(&line) <= 1.0 + ROUNDING => Ok(()),
+            Some(line) => Err(line),
+            None => Ok(()),
+        }
+    }
+}
+
 /// Takes key frames of a cycle at multiples of `tick_s`: the ends of its stretches, moved to the
-/// nearest tick, and what is needed between them to stay within [`TOLERANCE`].
+/// nearest tick, that of the last one to the next, and what is needed between them to stay within [`TOLERANCE`].
 ///
 /// # Errors
 /// [`CycleError`] where the cycle's own recovery is too fast.
@@ -54,13 +107,16 @@ pub fn from_cycle(checked: &CheckedCycle, tick_s: f64) -> Result<KeyFrames, Cycl
     for (name, end) in checked.recovery_ends() {
         labels.push((course.tick(course.pull_s + end), name.to_owned()));
     }
+    let last = course.tick_after(course.pull_s + checked.recovery_seconds());
+    if let Some((end, _)) = labels.last_mut() {
+        *end = last;
+    }
     let mut ticks: Vec<usize> = labels.iter().map(|(tick, _)| *tick).collect();
     for pair in labels.windows(2) {
         course.refine(pair[0].0, pair[1].0, &mut ticks);
     }
     ticks.sort_unstable();
     ticks.dedup();
-    let last = course.tick(course.pull_s + checked.recovery_seconds());
     let frames = ticks.into_iter().map(|tick| KeyFrame {
         tick,
         label: labels
@@ -80,11 +136,12 @@ pub fn from_cycle(checked: &CheckedCycle, tick_s: f64) -> Result<KeyFrames, Cycl
     })
 }
 
-/// Writes key frames as JSON.
+/// Writes key frames as JSON, and how far the record's joints were behind.
 pub fn json(
     robot: &Robot,
     checked: &CheckedCycle,
     key_frames: &KeyFrames,
+    lags: &Lags<'_>,
 ) -> Result<Vec<u8>, serde_json::Error> {
     let time_s = |tick: usize| (tick as f64 * key_frames.tick_s * 1e6).round() / 1e6;
     let frames = key_frames.frames.iter().map(|frame| {
@@ -105,6 +162,11 @@ pub fn json(
         pull_s: checked.pull_seconds(),
         interpolation: "linear",
         tolerance_rad: TOLERANCE,
+        largest_lag: lags.largest().map(|(joint, lag)| LagEntry::new(joint, lag)),
+        largest_lag_by_joint: lags
+            .joints()
+            .map(|(joint, lag)| lag.map(|lag| LagEntry::new(joint, lag)))
+            .collect(),
         joints: joints.map(|joint| joint.name.as_str()).collect(),
         frames: frames.collect(),
     };
@@ -119,8 +181,29 @@ struct File<'a> {
     pull_s: f64,
     interpolation: &'static str,
     tolerance_rad: f64,
+    largest_lag: Option<LagEntry<'a>>,
+    largest_lag_by_joint: Vec<Option<LagEntry<'a>>>,
     joints: Vec<&'a str>,
     frames: Vec<Entry<'a>>,
+}
+
+/// How far a joint of the record was behind its command.
+#[derive(Serialize)]
+struct LagEntry<'a> {
+    joint: &'a str,
+    lag_rad: f64,
+    time_s: f64,
+}
+
+impl<'a> LagEntry<'a> {
+    fn new(joint: &'a str, lag: Lag) -> Self {
+        Self {
+            joint,
+            // Records have six decimals.
+            lag_rad: (lag.angle * 1e6).round() / 1e6,
+            time_s: lag.time_s,
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -155,6 +238,19 @@ impl Course<'_> {
     )]
     fn tick(&self, seconds: f64) -> usize {
         (seconds / self.tick_s).round() as usize
+    }
+
+    /// The tick at which the cycle has closed: where that falls between two, the later one, as a line to
+    /// the earlier one would be faster than the command.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a time of a cycle is neither negative nor long"
+    )]
+    fn tick_after(&self, seconds: f64) -> usize {
+        /// Of a tick: rounding of the sum of a cycle's times.
+        const ROUNDING: f64 = 1e-6;
+        (seconds / self.tick_s - ROUNDING).ceil() as usize
     }
 
     /// Adds the tick between two where the straight line is farthest off, and so on in both parts.

@@ -8,6 +8,10 @@
 //! | `/joint_commands` | `sensor_msgs/msg/JointState` | commanded angles |
 //! | `/tf` | `tf2_msgs/msg/TFMessage` | root in `world`, every other body in its parent |
 //! | `/contacts/<body>/<with>` | `geometry_msgs/msg/WrenchStamped` | what presses on that body |
+//! | `/robot_description` | `std_msgs/msg/String` | the robot as URDF; once, latched |
+//!
+//! A body and a thing that are no parts of a topic's name are made such ([`tokens`]); a channel's
+//! metadata has their own names beside the profile of its publisher, which rosbag2 asks for.
 //!
 //! The wrench is the sum over the points in which the body touches that thing at that instant, its
 //! moment taken about the origin of the body's frame, both in that frame: what a sensor there would
@@ -18,10 +22,13 @@
 //! of which nothing was recorded is left out, and so are a transform and a wrench of a body whose pose
 //! is not known.
 
+pub mod bag;
 mod cdr;
+mod definitions;
+mod qos;
+mod tokens;
 
-use std::collections::BTreeMap;
-use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::Cursor;
 
 use glam::DVec3;
@@ -29,31 +36,12 @@ use mcap::records::MessageHeader;
 use mcap::{McapError, WriteOptions, Writer};
 
 use cdr::Cdr;
+use definitions::{Definition, JOINT_STATE, STRING, TF_MESSAGE, WRENCH_STAMPED};
 use prone_record::recorded::{Recorded, RecordedRow};
+use qos::Qos;
 
 /// The frame in which the root moves.
 const WORLD: &str = "world";
-
-/// Between the definition of a message and those that it uses.
-const RULE: &str =
-    "================================================================================";
-
-/// Definitions of the messages of ROS 2 (`common_interfaces`, `geometry2`), without comments.
-const TIME: &str = "MSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n";
-const HEADER: &str = "MSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n";
-const VECTOR: &str = "MSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n";
-const QUATERNION: &str =
-    "MSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1\n";
-const TRANSFORM: &str = "MSG: geometry_msgs/Transform\n\
-    geometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n";
-const TRANSFORM_STAMPED: &str = "MSG: geometry_msgs/TransformStamped\n\
-    std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/Transform transform\n";
-const WRENCH: &str =
-    "MSG: geometry_msgs/Wrench\ngeometry_msgs/Vector3 force\ngeometry_msgs/Vector3 torque\n";
-const JOINT_STATE: &str = "std_msgs/Header header\nstring[] name\n\
-    float64[] position\nfloat64[] velocity\nfloat64[] effort\n";
-const TF_MESSAGE: &str = "geometry_msgs/TransformStamped[] transforms\n";
-const WRENCH_STAMPED: &str = "std_msgs/Header header\ngeometry_msgs/Wrench wrench\n";
 
 /// A body and what it touches, in the order of the topics.
 type Pair<'a> = (usize, &'a str);
@@ -61,45 +49,74 @@ type Pair<'a> = (usize, &'a str);
 /// Force and moment.
 type Wrench = (DVec3, DVec3);
 
-/// Makes the file, with chunks, indices and checksums, not compressed.
-pub fn log(record: &Recorded) -> Result<Vec<u8>, McapError> {
-    let options = WriteOptions::new()
-        .profile("ros2")
-        .library(concat!("prone ", env!("CARGO_PKG_VERSION")))
-        .compression(None);
-    let mut log = Log {
-        writer: options.create(Cursor::new(Vec::new()))?,
-        sequences: BTreeMap::new(),
-    };
+/// A log, and what a bag says of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RosLog {
+    /// The file.
+    pub bytes: Vec<u8>,
+    /// In the order of the channels.
+    topics: Vec<Topic>,
+    /// Time of the first message.
+    begin_ns: u64,
+    /// Time of the last one.
+    end_ns: u64,
+}
+
+/// A topic and how many messages it has.
+#[derive(Debug, Clone, PartialEq)]
+struct Topic {
+    name: String,
+    kind: &'static str,
+    qos: Qos,
+    messages: u64,
+}
+
+/// Why there is no log.
+#[derive(Debug, thiserror::Error)]
+pub enum LogError {
+    /// Frames are known by their names.
+    #[error(
+        "two frames of the record are called {frame:?}: a log with /tf needs one name for each"
+    )]
+    SameFrame {
+        /// The name.
+        frame: String,
+    },
+    /// A frame without a name.
+    #[error("body {place} of the record has no name: a log with /tf needs one")]
+    NamelessFrame {
+        /// Place among the bodies, from 1.
+        place: usize,
+    },
+    /// The format cannot be written.
+    #[error(transparent)]
+    Format(#[from] McapError),
+}
+
+/// Makes the file, with chunks, indices and checksums, not compressed. `description` is the robot as
+/// URDF, whose links must have the frames of the record's bodies.
+pub fn log(record: &Recorded, description: Option<&str>) -> Result<RosLog, LogError> {
+    check_frames(record)?;
+    let mut log = Log::new()?;
     log.say_what(record)?;
-    let joint_state = log.schema("sensor_msgs/msg/JointState", &[JOINT_STATE, HEADER, TIME])?;
-    let wrench = [WRENCH_STAMPED, HEADER, TIME, WRENCH, VECTOR];
-    let wrench = log.schema("geometry_msgs/msg/WrenchStamped", &wrench)?;
-    let transform = [
-        TRANSFORM_STAMPED,
-        HEADER,
-        TIME,
-        TRANSFORM,
-        VECTOR,
-        QUATERNION,
-    ];
-    let tf = [&[TF_MESSAGE][..], &transform].concat();
-    let tf = log.schema("tf2_msgs/msg/TFMessage", &tf)?;
-    let states = log.channel(joint_state, "/joint_states")?;
+    let (begin_s, end_s) = record.span_s();
+    let [begin, end] = [begin_s, end_s].map(Stamp::from_seconds);
+    if let Some(description) = description {
+        let channel = log.channel(STRING, "/robot_description", Qos::Latched, &[])?;
+        let mut message = Cdr::new();
+        message.text(description);
+        log.write(channel, begin, &message.finish())?;
+    }
+    let states = log.channel(JOINT_STATE, "/joint_states", Qos::Volatile, &[])?;
     let angles = known(record, |row| row.angles.as_slice());
     let torques = known(record, |row| &row.motor_torque_nm);
     let commands = known(record, |row| row.command.as_slice());
-    let commands = commands.map(|_| log.channel(joint_state, "/joint_commands"));
+    let commands =
+        commands.map(|_| log.channel(JOINT_STATE, "/joint_commands", Qos::Volatile, &[]));
     let commands = commands.transpose()?;
-    let poses = has_poses(record).then(|| log.channel(tf, "/tf"));
+    let poses = has_poses(record).then(|| log.channel(TF_MESSAGE, "/tf", Qos::Volatile, &[]));
     let poses = poses.transpose()?;
-    let mut pairs: BTreeMap<Pair<'_>, u16> = BTreeMap::new();
-    for contact in &record.contacts {
-        let pair = (contact.body, contact.with.as_str());
-        if let Entry::Vacant(place) = pairs.entry(pair) {
-            place.insert(log.channel(wrench, &contact_topic(record, pair))?);
-        }
-    }
+    let pairs = log.contact_channels(record)?;
     let speeds = record.joint_speeds();
     let mut contacts = record.contacts.as_slice();
     let mut counts = record.contact_counts.iter();
@@ -149,7 +166,28 @@ pub fn log(record: &Recorded) -> Result<Vec<u8>, McapError> {
         }
     }
     log.writer.finish()?;
-    Ok(log.writer.into_inner().into_inner())
+    Ok(RosLog {
+        bytes: log.writer.into_inner().into_inner(),
+        topics: log.topics.into_values().collect(),
+        begin_ns: begin.0,
+        end_ns: end.0,
+    })
+}
+
+/// Checks that each frame of `/tf` has a name of its own.
+fn check_frames(record: &Recorded) -> Result<(), LogError> {
+    let mut frames = BTreeSet::from([WORLD]);
+    for (index, body) in record.bodies.iter().enumerate() {
+        if body.name.is_empty() {
+            return Err(LogError::NamelessFrame { place: index + 1 });
+        }
+        if !frames.insert(&body.name) {
+            return Err(LogError::SameFrame {
+                frame: body.name.clone(),
+            });
+        }
+    }
+    Ok(())
 }
 
 /// Numbers of the joints of a row.
@@ -168,11 +206,14 @@ fn has_poses(record: &Recorded) -> bool {
     poses.any(|pose| pose.is_some())
 }
 
-/// Letters, digits and underscores between slashes, as ROS wants it.
-fn contact_topic(record: &Recorded, (body, with): Pair<'_>) -> String {
-    let token = |name: &str| name.replace(|letter: char| !letter.is_ascii_alphanumeric(), "_");
-    let body = token(&record.bodies[body].name);
-    format!("/contacts/{body}/{}", token(with))
+/// What the robot may touch: the floor, the obstacles of the record's scene, and whatever its contacts
+/// name beside them.
+fn things(record: &Recorded) -> impl Iterator<Item = &str> {
+    let obstacles = record.model["obstacles"].as_array();
+    let obstacles = obstacles.into_iter().flatten();
+    let obstacles = obstacles.filter_map(|obstacle| obstacle["name"].as_str());
+    let touched = record.contacts.iter().map(|contact| contact.with.as_str());
+    std::iter::once("floor").chain(obstacles).chain(touched)
 }
 
 /// A `JointState`; position, velocity and effort, of which any may be empty.
@@ -242,11 +283,21 @@ impl Stamp {
 
 struct Log {
     writer: Writer<Cursor<Vec<u8>>>,
-    /// How many messages each channel has.
-    sequences: BTreeMap<u16, u32>,
+    topics: BTreeMap<u16, Topic>,
 }
 
 impl Log {
+    fn new() -> Result<Self, McapError> {
+        let options = WriteOptions::new()
+            .profile("ros2")
+            .library(concat!("prone ", env!("CARGO_PKG_VERSION")))
+            .compression(None);
+        Ok(Self {
+            writer: options.create(Cursor::new(Vec::new()))?,
+            topics: BTreeMap::new(),
+        })
+    }
+
     /// Where the record comes from.
     fn say_what(&mut self, record: &Recorded) -> Result<(), McapError> {
         let run = &record.run;
@@ -267,23 +318,64 @@ impl Log {
         })
     }
 
-    fn schema(&mut self, name: &str, definitions: &[&str]) -> Result<u16, McapError> {
-        let text = definitions.join(&format!("{RULE}\n"));
-        self.writer.add_schema(name, "ros2msg", text.as_bytes())
+    /// A channel for each body and thing that touch in the record. Parts of topics are given to all
+    /// bodies and things, so that they do not depend on what was touched.
+    fn contact_channels<'a>(
+        &mut self,
+        record: &'a Recorded,
+    ) -> Result<BTreeMap<Pair<'a>, u16>, McapError> {
+        let bodies = tokens::tokens("body", record.bodies.iter().map(|body| body.name.as_str()));
+        let with = tokens::tokens("thing", things(record));
+        let contacts = record.contacts.iter();
+        let pairs = contacts.map(|contact| (contact.body, contact.with.as_str()));
+        let pairs: BTreeSet<Pair<'_>> = pairs.collect();
+        let channels = pairs.into_iter().map(|(index, thing)| {
+            let body = record.bodies[index].name.as_str();
+            let topic = format!("/contacts/{}/{}", bodies[body], with[thing]);
+            let names = [("body", body), ("with", thing)];
+            let channel = self.channel(WRENCH_STAMPED, &topic, Qos::Volatile, &names)?;
+            Ok(((index, thing), channel))
+        });
+        channels.collect()
     }
 
-    fn channel(&mut self, schema: u16, topic: &str) -> Result<u16, McapError> {
-        self.writer
-            .add_channel(schema, topic, "cdr", &BTreeMap::new())
+    fn channel(
+        &mut self,
+        definition: Definition,
+        topic: &str,
+        qos: Qos,
+        names: &[(&str, &str)],
+    ) -> Result<u16, McapError> {
+        let text = definition.text();
+        // The same definition gets the same number again.
+        let schema = self
+            .writer
+            .add_schema(definition.name, "ros2msg", text.as_bytes())?;
+        let names = names.iter();
+        let names = names.map(|(key, name)| ((*key).to_owned(), (*name).to_owned()));
+        let mut metadata: BTreeMap<String, String> = names.collect();
+        metadata.insert("offered_qos_profiles".to_owned(), qos.yaml());
+        let channel = self.writer.add_channel(schema, topic, "cdr", &metadata)?;
+        let topic = Topic {
+            name: topic.to_owned(),
+            kind: definition.name,
+            qos,
+            messages: 0,
+        };
+        self.topics.insert(channel, topic);
+        Ok(channel)
     }
 
     fn write(&mut self, channel: u16, stamp: Stamp, message: &[u8]) -> Result<(), McapError> {
-        let sequence = self.sequences.entry(channel).or_default();
-        *sequence += 1;
+        let count = self.topics.get_mut(&channel).map(|topic| {
+            topic.messages += 1;
+            topic.messages
+        });
+        let sequence = count.and_then(|count| u32::try_from(count).ok());
         let Stamp(nanoseconds) = stamp;
         let header = MessageHeader {
             channel_id: channel,
-            sequence: *sequence,
+            sequence: sequence.unwrap_or_default(),
             log_time: nanoseconds,
             publish_time: nanoseconds,
         };

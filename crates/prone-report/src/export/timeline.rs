@@ -11,6 +11,7 @@ use std::fmt::Write as _;
 use prone::robot::Robot;
 
 use super::key_frames::KeyFrames;
+use super::lag::Lags;
 use crate::markup::escaped;
 
 /// Frames per second of a timeline unless one changes it.
@@ -18,6 +19,60 @@ pub const FRAME_RATE: f64 = 25.0;
 
 /// The frame of the first posture.
 pub const FIRST_FRAME: usize = 50;
+
+/// The hinges that Choregraphe knows: those of a NAO with 25 motors. Hands are none of them: a timeline
+/// says how far they are open.
+const HINGES: [&str; 24] = [
+    "HeadYaw",
+    "HeadPitch",
+    "LShoulderPitch",
+    "LShoulderRoll",
+    "LElbowYaw",
+    "LElbowRoll",
+    "LWristYaw",
+    "LHipYawPitch",
+    "LHipRoll",
+    "LHipPitch",
+    "LKneePitch",
+    "LAnklePitch",
+    "LAnkleRoll",
+    "RHipYawPitch",
+    "RHipRoll",
+    "RHipPitch",
+    "RKneePitch",
+    "RAnklePitch",
+    "RAnkleRoll",
+    "RShoulderPitch",
+    "RShoulderRoll",
+    "RElbowYaw",
+    "RElbowRoll",
+    "RWristYaw",
+];
+
+/// A robot that is none of Choregraphe's.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "Choregraphe moves the hinges of a NAO, and has no joint {joint:?} of {robot}: export keyframes \
+     instead"
+)]
+pub struct UnknownJoint {
+    /// The first joint that Choregraphe does not know.
+    pub joint: String,
+    /// Name of the robot.
+    pub robot: String,
+}
+
+/// Checks that Choregraphe knows all joints of a robot by their names.
+pub fn check_robot(robot: &Robot) -> Result<(), UnknownJoint> {
+    let mut joints = robot.joints.iter();
+    match joints.find(|joint| !HINGES.contains(&joint.name.as_str())) {
+        None => Ok(()),
+        Some(joint) => Err(UnknownJoint {
+            joint: joint.name.clone(),
+            robot: robot.name.clone(),
+        }),
+    }
+}
 
 /// The fixed ports of a box.
 const PORTS: &str = r#"<bitmap>media/images/box/movement/move.png</bitmap>
@@ -28,8 +83,15 @@ const PORTS: &str = r#"<bitmap>media/images/box/movement/move.png</bitmap>
 <Output name="onStopped" type="1" type_size="1" nature="1" inner="0" tooltip="Signal sent when box behavior is finished." id="4"/>
 "#;
 
-/// Writes the project; `key_frames` were taken with a tick of 1 / [`FRAME_RATE`].
-pub fn xar(robot: &Robot, gait: &str, key_frames: &KeyFrames) -> String {
+/// Writes the project; `key_frames` were taken with a tick of 1 / [`FRAME_RATE`]. The box says how far the
+/// record's joints were behind, in the words of `lags` and of the sentence `behind`.
+pub fn xar(
+    robot: &Robot,
+    gait: &str,
+    key_frames: &KeyFrames,
+    lags: &Lags<'_>,
+    behind: &str,
+) -> String {
     let postures = &key_frames.frames;
     let frames = postures.iter().map(|frame| FIRST_FRAME + frame.tick);
     let frames: Vec<usize> = frames.collect();
@@ -51,6 +113,11 @@ pub fn xar(robot: &Robot, gait: &str, key_frames: &KeyFrames) -> String {
         );
     }
     let (gait, name) = (escaped(gait), escaped(&robot.name));
+    let mut behind = escaped(behind);
+    let list = lags.list();
+    if !list.is_empty() {
+        let _ = write!(behind, "; largest lags: {}", escaped(&list));
+    }
     format!(
         r#"<?xml version="1.0" encoding="UTF-8" ?>
 <ChoregrapheProject xmlns="http://www.aldebaran-robotics.com/schema/choregraphe/project.xsd" xar_version="3">
@@ -59,7 +126,7 @@ pub fn xar(robot: &Robot, gait: &str, key_frames: &KeyFrames) -> String {
 <BehaviorLayer name="behavior_layer1">
 <BehaviorKeyframe name="keyframe1" index="1">
 <Diagram scale="100">
-<Box name="{gait}" id="2" localization="8" tooltip="From extension to extension; the first posture is reached at frame {FIRST_FRAME}." x="300" y="100">
+<Box name="{gait}" id="2" localization="8" tooltip="From extension to extension; the first posture is reached at frame {FIRST_FRAME}. {behind}." x="300" y="100">
 {PORTS}<Timeline enable="1" fps="{FRAME_RATE}" start_frame="1" end_frame="-1" size="{size}">
 <ActuatorList model="">
 {curves}</ActuatorList>

@@ -5,12 +5,16 @@
 //! the links of this file. URDF has no capsule and no ellipsoid: a capsule is written as a cylinder
 //! and two spheres, which is the same solid, an ellipsoid as spheres inside it, whose hull is
 //! nearly the ellipsoid's.
+//!
+//! A joint that shares its motor with others mimics the first of them. `<mujoco>` is read by
+//! `MuJoCo` alone, which otherwise welds the root to its world and drops the root's mass.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
 use glam::{DMat3, DQuat, DVec3, EulerRot};
 
-use prone::robot::{Body, Robot};
+use prone::robot::{Body, Joint, Robot};
 use prone_record::recorded::{Inertia, RecordedModel, RecordedShape};
 
 use crate::markup::escaped;
@@ -19,6 +23,10 @@ pub mod ellipsoid;
 
 /// Groups of the engine that are drawn: 0 to 2.
 const DRAWN: std::ops::RangeInclusive<i32> = 0..=2;
+
+/// Inertia of a link without mass.
+const WEIGHTLESS: &str = "    <inertial><mass value=\"0\"/><inertia ixx=\"0\" ixy=\"0\" ixz=\"0\" \
+    iyy=\"0\" iyz=\"0\" izz=\"0\"/></inertial>\n";
 
 /// Why a record's robot has no URDF.
 #[derive(Debug, thiserror::Error)]
@@ -35,6 +43,20 @@ pub enum UrdfError {
         /// Name of the body.
         body: String,
     },
+    /// Links and joints are known by their names.
+    #[error("two {things} of the robot are called {name:?}: URDF needs one name for each")]
+    SameName {
+        /// `links` or `joints`.
+        things: &'static str,
+        /// The name.
+        name: String,
+    },
+    /// A link or a joint without a name.
+    #[error("one of the {things} of the robot has no name: URDF needs one")]
+    Nameless {
+        /// `links` or `joints`.
+        things: &'static str,
+    },
 }
 
 /// Writes the robot of a record.
@@ -45,17 +67,22 @@ pub fn from_record(robot: &Robot, model: &RecordedModel) -> Result<String, UrdfE
             robot: robot.name.clone(),
         });
     }
+    check_names("links", robot.bodies.iter().map(|body| &body.name))?;
+    let hinges = check_names("joints", robot.joints.iter().map(|joint| &joint.name))?;
     let mut text = format!(
         "<?xml version=\"1.0\"?>\n<!-- Made by prone {} from its MJCF model. Ellipsoids are written \
          as spheres inside them: URDF has none. -->\n<robot name=\"{}\">\n",
         env!("CARGO_PKG_VERSION"),
         escaped(&robot.name)
     );
+    text += "  <mujoco><compiler fusestatic=\"false\"/></mujoco>\n";
+    materials(&mut text, model);
     for (index, (body, recorded)) in robot.bodies.iter().zip(&model.bodies).enumerate() {
         let shapes = model.shapes.iter().filter(|shape| shape.body == index);
         let shift = link_in_body(robot, body);
         let inertial = match recorded.inertia {
-            _ if body.mass <= 0.0 => String::new(),
+            // Said, as Bullet takes a link that is silent for one of 1 kg.
+            _ if body.mass <= 0.0 => WEIGHTLESS.to_owned(),
             Some(inertia) => inertial(body, shift, &inertia),
             None => {
                 return Err(UrdfError::NoInertia {
@@ -66,9 +93,49 @@ pub fn from_record(robot: &Robot, model: &RecordedModel) -> Result<String, UrdfE
         link(&mut text, body, shift, &inertial, shapes);
     }
     for body in &robot.bodies {
-        joint(&mut text, robot, body);
+        joint(&mut text, robot, body, &hinges);
     }
     Ok(text + "</robot>\n")
+}
+
+/// The first body whose link has another frame than the body itself, as it is not hinged at its own
+/// origin.
+pub fn shifted_link(robot: &Robot) -> Option<&Body> {
+    let mut bodies = robot.bodies.iter();
+    bodies.find(|body| link_in_body(robot, body) != DVec3::ZERO)
+}
+
+/// Checks that each has a name of its own, and gives the names.
+fn check_names<'a>(
+    things: &'static str,
+    names: impl Iterator<Item = &'a String>,
+) -> Result<BTreeSet<&'a str>, UrdfError> {
+    let mut found = BTreeSet::new();
+    for name in names {
+        if name.is_empty() {
+            return Err(UrdfError::Nameless { things });
+        }
+        if !found.insert(name.as_str()) {
+            let name = name.clone();
+            return Err(UrdfError::SameName { things, name });
+        }
+    }
+    Ok(found)
+}
+
+/// Each colour that is seen, once; shapes name it.
+fn materials(text: &mut String, model: &RecordedModel) {
+    let drawn = model.shapes.iter();
+    let drawn = drawn.filter(|shape| DRAWN.contains(&shape.group));
+    let colours = drawn.map(|shape| (material(shape.colour), shape.colour));
+    let colours: BTreeMap<String, [f64; 4]> = colours.collect();
+    for (name, [r, g, b, a]) in colours {
+        // Writing to a text does not fail.
+        let _ = writeln!(
+            text,
+            "  <material name=\"{name}\"><color rgba=\"{r:.3} {g:.3} {b:.3} {a:.3}\"/></material>"
+        );
+    }
 }
 
 fn inertial(body: &Body, shift: DVec3, inertia: &Inertia) -> String {
@@ -98,11 +165,9 @@ fn link<'a>(
             let at = shape.position + shape.rotation * place - shift;
             let place = origin(at, shape.rotation);
             if DRAWN.contains(&shape.group) {
-                let [r, g, b, a] = shape.colour;
                 let _ = writeln!(
                     text,
-                    "    <visual>{place}<geometry>{geometry}</geometry><material name=\"{}\"><color \
-                     rgba=\"{r:.3} {g:.3} {b:.3} {a:.3}\"/></material></visual>",
+                    "    <visual>{place}<geometry>{geometry}</geometry><material name=\"{}\"/></visual>",
                     material(shape.colour)
                 );
             }
@@ -117,7 +182,7 @@ fn link<'a>(
     *text += "  </link>\n";
 }
 
-fn joint(text: &mut String, robot: &Robot, body: &Body) {
+fn joint(text: &mut String, robot: &Robot, body: &Body, hinges: &BTreeSet<&str>) {
     let Some(parent) = body.parent.map(|parent| &robot.bodies[parent.0]) else {
         return;
     };
@@ -127,7 +192,7 @@ fn joint(text: &mut String, robot: &Robot, body: &Body) {
     let hinge = body.joint.map(|joint| &robot.joints[joint.0]);
     let (name, kind) = match hinge {
         Some(joint) => (joint.name.clone(), "revolute"),
-        None => (format!("{}_fixed", body.name), "fixed"),
+        None => (fixed_name(&body.name, hinges), "fixed"),
     };
     let _ = writeln!(
         text,
@@ -147,8 +212,33 @@ fn joint(text: &mut String, robot: &Robot, body: &Body) {
             joint.effort_limit,
             joint.speed_limit
         );
+        if let Some(leader) = leader(robot, joint) {
+            let _ = writeln!(
+                text,
+                "    <mimic joint=\"{}\" multiplier=\"1\" offset=\"0\"/>",
+                escaped(&leader.name)
+            );
+        }
     }
     *text += "  </joint>\n";
+}
+
+/// Name of the joint that fixes a body, which no hinge has.
+fn fixed_name(body: &str, hinges: &BTreeSet<&str>) -> String {
+    let mut name = format!("{body}_fixed");
+    while hinges.contains(name.as_str()) {
+        name.push('_');
+    }
+    name
+}
+
+/// The joint at whose angle this one is kept, as one motor turns both; none of the first of them.
+fn leader<'a>(robot: &'a Robot, joint: &Joint) -> Option<&'a Joint> {
+    let mut groups = robot.shared_motors.iter();
+    let place = robot.joint(&joint.name)?;
+    let group = groups.find(|group| group.contains(&place))?;
+    let first = *group.first()?;
+    (first != place).then(|| &robot.joints[first.0])
 }
 
 /// Origin of a body's link in the body's frame: its hinge, or its own origin.
