@@ -184,7 +184,9 @@ fn a_name_is_no_cell_and_no_column() {
         let home = bed.path().join("robot");
         fs::write(
             home.join("robot.toml"),
-            alone(NAO.toml).replace("LKneePitch", joint),
+            alone(NAO.toml)
+                .replace("LKneePitch =", &format!("\"{joint}\" ="))
+                .replace("LKneePitch", joint),
         )
         .unwrap();
         fs::write(
@@ -278,11 +280,12 @@ fn a_picture_does_not_lead_out_of_its_folder() {
         let bed = bed();
         fs::create_dir(bed.path().join("victim")).unwrap();
         fs::write(bed.path().join("victim/secret.png"), &png).unwrap();
+        fs::write(bed.path().join("victim/secret.svg"), "<svg/>").unwrap();
         fs::write(bed.path().join("record/figures.json"), entry(file)).unwrap();
         refused(
             file,
             &prone(&bed, "report record --out out/report.html"),
-            &["figures.json"],
+            &["figures.json", "victim", "/tmp/secret"],
         );
     }
 }

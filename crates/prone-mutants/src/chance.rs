@@ -29,6 +29,11 @@ impl Chance {
         &list[self.below(list.len())]
     }
 
+    /// One word of a list that is not empty.
+    pub(crate) fn word(&mut self, list: &[&'static str]) -> &'static str {
+        list[self.below(list.len())]
+    }
+
     /// True once in so many times.
     pub(crate) fn once_in(&mut self, times: usize) -> bool {
         self.below(times) == 0

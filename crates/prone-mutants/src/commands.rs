@@ -21,7 +21,7 @@ const fn commands(format: Format) -> &'static [&'static str] {
             "cost optimal --objective heat --source statics --robot robot",
             "crawl run thesis-nominal --cycles 1 --robot robot",
         ],
-        Format::Family => &["robot check family", "list --robot family"],
+        Format::Family => &["robot check family"],
         Format::Pull => &[
             "gait show pull.toml",
             "gait show pull.toml --csv out/gait.csv",
@@ -44,7 +44,7 @@ const fn commands(format: Format) -> &'static [&'static str] {
             "export record --format urdf --out out/robot.urdf",
             "report record --out out/report.html",
         ],
-        Format::Cycles | Format::Summary => &["report record --out out/report.html"],
+        Format::Summary => &["report record --out out/report.html"],
         Format::SearchResult | Format::History => &["report search --out out/report.html"],
         Format::Checkpoint => &[SEARCH],
     }
@@ -71,7 +71,7 @@ pub fn run(
     let mut wrong = ended.wrong();
     let out = bed.path().join("out");
     // What is readable of a record that was cut off is shown, which is said, and the code is 2.
-    let cut_off = ["what stands before", "cut off", "missing"]
+    let cut_off = ["what stands before", "are left", "missing from here"]
         .iter()
         .any(|word| ended.said.contains(word));
     let may_leave = ended.code == Some(0) || cut_off;

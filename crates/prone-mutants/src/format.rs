@@ -65,8 +65,6 @@ formats! {
     Run = "record-run", Json;
     /// `model.json` of a record.
     Model = "record-model", Json;
-    /// `cycles.csv` of a record, which a report reads.
-    Cycles = "record-cycles", Table;
     /// `summary.json` of a record, which a report reads.
     Summary = "record-summary", Json;
     /// `result.json` of a search, which a report reads.

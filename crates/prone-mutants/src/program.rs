@@ -121,11 +121,10 @@ impl Ended {
             return Some(format!("{} MB of memory", self.memory >> 20));
         }
         match self.code {
-            Some(0) => {}
             Some(1 | 2) if self.said.trim().is_empty() => {
                 return Some("failed without a word".to_owned());
             }
-            Some(1 | 2) => {}
+            Some(0..=2) => {}
             code => {
                 return Some(format!(
                     "exit code {}: {}",

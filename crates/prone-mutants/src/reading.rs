@@ -131,7 +131,7 @@ impl Reader {
                 self.bed.put(self.format, text)?;
                 self.record()
             }
-            Format::Cycles | Format::Summary => self.report("record", text),
+            Format::Summary => self.report("record", text),
             Format::SearchResult | Format::History => self.report("search", text),
             Format::Checkpoint => self.resumed(text),
         }

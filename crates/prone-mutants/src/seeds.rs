@@ -145,7 +145,6 @@ const fn place(format: Format) -> &'static str {
         Format::Contacts => "record/contacts.csv",
         Format::Run => "record/run.json",
         Format::Model => "record/model.json",
-        Format::Cycles => "record/cycles.csv",
         Format::Summary => "record/summary.json",
         Format::SearchResult => "search/result.json",
         Format::History => "search/history.csv",

@@ -36,8 +36,8 @@ pub(super) fn change(chance: &mut Chance, text: &str, seeds: &[&str]) -> String 
         }
         7 => {
             bytes = text
-                .replace('\n', *chance.one(&["\r\n", "\r", "\n\n", " "]))
-                .into_bytes()
+                .replace('\n', chance.word(&["\r\n", "\r", "\n\n", " "]))
+                .into_bytes();
         }
         _ => drop(bytes.splice(..0, *b"\xef\xbb\xbf")),
     }

@@ -47,7 +47,7 @@ pub(super) fn change(chance: &mut Chance, text: &str) -> String {
             lines[at] = new(&format!("{}1{}", "[".repeat(depth), "]".repeat(depth)));
         }
         6 => {
-            lines[at] = new(*chance.one(&[
+            lines[at] = new(chance.word(&[
                 "{}",
                 "[]",
                 "\"\"",
@@ -56,7 +56,7 @@ pub(super) fn change(chance: &mut Chance, text: &str) -> String {
                 "[[1]]",
                 "{a={b=1}}",
                 "''' '''",
-            ]))
+            ]));
         }
         7 => {
             let item = value.unwrap_or_else(|| "1".to_owned());

@@ -25,11 +25,25 @@ pub(super) fn change(chance: &mut Chance, text: &str) -> String {
             let new = attribute(chance, &text[tag.start + 1..name]);
             replaced(text, name..name, &new)
         }
-        3 => replaced(text, after, &element(chance)),
-        4 => replaced(text, after, *chance.one(HOSTILE)),
-        5 => {
+        3 => {
             let element = element(chance);
-            replaced(text, after, &element.repeat(1 << chance.below(13)))
+            insert(text, after, &element)
+        }
+        4 => insert(text, after, chance.word(HOSTILE)),
+        5 => {
+            // One of them with so many numbers of its own that the engine keeps as many for each.
+            let name = *chance.one(&["site", "geom", "camera", "body", "joint", "light", "frame"]);
+            let numbers = "1 ".repeat(1 << (8 + chance.below(9)));
+            let first =
+                format!("<{name} user=\"{numbers}\" size=\".01\"/>").repeat(chance.below(2));
+            let first = if name == "camera" {
+                first.replace(" size=\".01\"", "")
+            } else {
+                first
+            };
+            let size = if name == "geom" { " size=\".01\"" } else { "" };
+            let more = format!("<{name}{size}/>").repeat(1 << (5 + chance.below(9)));
+            replaced(text, after, &[first, more].concat())
         }
         6 => replaced(text, tag, ""),
         7 => {
@@ -56,6 +70,28 @@ fn tags(text: &str) -> Vec<Range<usize>> {
         .filter(|at| text[at + 1..].starts_with(|letter: char| letter.is_ascii_alphabetic()))
         .filter_map(|at| Some(at..at + text[at..].find('>')? + 1))
         .collect()
+}
+
+/// Inserts an element where it can stand: some have their place at the top.
+fn insert(text: &str, after: Range<usize>, element: &str) -> String {
+    const AT_TOP: &[&str] = &[
+        "option",
+        "compiler",
+        "size",
+        "visual",
+        "statistic",
+        "default",
+        "asset",
+        "equality",
+        "sensor",
+        "contact",
+    ];
+    let name = element[1..]
+        .split([' ', '>', '/'])
+        .next()
+        .unwrap_or_default();
+    let world = text.find("<worldbody").filter(|_| AT_TOP.contains(&name));
+    replaced(text, world.map_or(after, |at| at..at), element)
 }
 
 fn element(chance: &mut Chance) -> String {
