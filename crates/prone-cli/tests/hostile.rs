@@ -120,9 +120,8 @@ fn a_model_has_no_more_elements_than_a_robot() {
         &"<geom size=\".01\" contype=\"0\" conaffinity=\"0\"/>".repeat(20_000),
         &["geom", "element"],
     );
-    let classes: String = (0..30_000)
-        .map(|n| format!("<default class=\"c{n}\"/>"))
-        .collect();
+    let class = |n| format!("<default class=\"c{n}\"/>");
+    let classes = (0..30_000).map(class).collect::<Vec<_>>().concat();
     model(
         "<default>",
         &format!("<default>{classes}"),
