@@ -173,7 +173,7 @@ fn robot_and_cycle_need_no_table() {
     );
 }
 
-/// The last stretch, 0.115 s at nearly the speed limit of HeadYaw, ends 15 ms after a tick of 1/25 s:
+/// The last stretch, 0.115 s at nearly the speed limit of `HeadYaw`, ends 15 ms after a tick of 1/25 s:
 /// a line to that tick would be too fast.
 #[test]
 fn no_line_is_faster_than_its_command_and_none_than_a_joint_may_be() {
@@ -214,7 +214,7 @@ fn no_line_is_faster_than_its_command_and_none_than_a_joint_may_be() {
         let (code, said, bytes) = export(&fast, format, home);
         assert_eq!((code, bytes.len()), (Some(2), 0), "{format}: {said}");
         assert!(said.contains("ShoulderPitch would need "), "{said}");
-        assert!(said.contains("above its limit of 8.27 rad/s"), "{said}");
+        assert!(said.contains("above its limit of 7.45 rad/s"), "{said}");
     }
 }
 
