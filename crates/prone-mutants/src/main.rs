@@ -10,6 +10,8 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, bail};
 use clap::Parser;
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::iterator::Signals;
 
 use prone_mutants::Format;
 use prone_mutants::campaign::{self, Door, Tally};
@@ -94,7 +96,12 @@ fn run(args: &Args) -> anyhow::Result<ExitCode> {
         ),
         None => Door::Readers,
     };
-    ctrlc::set_handler(|| STOPPED.store(true, Ordering::Relaxed))?;
+    let mut signals = Signals::new([SIGHUP, SIGINT, SIGTERM])?;
+    thread::spawn(move || {
+        for _ in signals.forever() {
+            STOPPED.store(true, Ordering::Relaxed);
+        }
+    });
     let tallies: Vec<Mutex<Tally>> = formats
         .iter()
         .map(|format| Mutex::new(Tally::new(*format, &door)))
