@@ -161,7 +161,7 @@ impl Reader {
                 .map_err(|error| error.to_string())
         });
         let written = written.and_then(|()| {
-            export::ros_log::log(&record)
+            export::ros_log::log(&record, None)
                 .map(drop)
                 .map_err(|error| error.to_string())
         });
