@@ -610,7 +610,7 @@ const TABLES: &[Refusal] = &[
     (
         "nominal_mnm = 16.1",
         "nominal_mnm = 99999.0",
-        "nao/robot.toml:60:15: joint LHipYawPitch: continuous torque 20129.7987 is outside 0.01369..13.6884 N·m at the joint: what a motor gives for ever is a part of what it gives at stall",
+        "nao/robot.toml:60:15: joint LHipYawPitch: nominal (continuous) torque 20129.7987 is outside 0.01369..13.6884 N·m at the joint: what a motor gives for ever is a part of what it gives at stall",
     ),
     (
         "effort_nm = 1.547",

@@ -236,7 +236,7 @@ fn check_joint(robot: &Robot, id: JointId, joint: &Joint, length: f64) -> Result
     let (least, largest) = CONTINUOUS_SHARE;
     within(
         About::ContinuousTorque(id),
-        &format!("joint {name}: continuous torque"),
+        &format!("joint {name}: nominal (continuous) torque"),
         motor.nominal,
         (least * motor.stall, largest * motor.stall),
         " N·m at the joint",
@@ -378,7 +378,7 @@ mod tests {
                 no_load_speed: None,
             });
         });
-        assert!(message.contains("continuous torque"), "{message}");
+        assert!(message.contains("continuous) torque"), "{message}");
     }
 
     #[test]
