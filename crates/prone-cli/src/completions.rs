@@ -22,6 +22,10 @@ pub(crate) fn print(shell: Shell) -> Result<(), Failure> {
         command = naming(command, Gaits::OfEitherKind);
     }
     clap_complete::generate(shell, &mut command, "prone", &mut script);
+    #[expect(
+        clippy::disallowed_methods,
+        reason = "a script has tabs, and no foreign text"
+    )]
     let mut out = std::io::stdout().lock();
     out.write_all(&script)?;
     out.flush()?;

@@ -78,6 +78,7 @@ impl Failure {
 }
 
 /// One line to standard error. Where nobody hears, the exit code still speaks.
+#[expect(clippy::disallowed_methods, reason = "the one place")]
 pub(crate) fn say(line: &str) {
     let line = foreign_text::escaped_lines(line);
     let _ = writeln!(

@@ -32,11 +32,13 @@ mod robot;
 mod torque_map;
 mod view;
 
+use std::ffi::OsStr;
 use std::io::Write as _;
 use std::process::ExitCode;
 
 use args::{Args, Command, GaitCommand, RobotCommand, TorqueMapCommand};
 use failure::Failure;
+use prone::foreign_text;
 use prone_record::program::Program;
 
 fn main() -> ExitCode {
@@ -56,12 +58,24 @@ fn main() -> ExitCode {
 
 /// Prints what clap has to say: help and version are results, as any other; the rest is wrong input.
 fn tell(said: &clap::Error) -> Result<(), Failure> {
+    if said.use_stderr() && std::env::args_os().any(|it| !is_plain(&it)) {
+        // Without clap's colours, whose letters would be shown too.
+        failure::say(said.render().to_string().trim_end());
+        return Err(Failure::Usage);
+    }
     let printed = said.print();
     if said.use_stderr() {
         return Err(Failure::Usage);
     }
     printed?;
-    Ok(std::io::stdout().flush()?)
+    Ok(printed::out().flush()?)
+}
+
+/// Whether what was typed is text without letters that are not seen.
+fn is_plain(typed: &OsStr) -> bool {
+    typed
+        .to_str()
+        .is_some_and(|it| !it.contains(foreign_text::is_hidden))
 }
 
 fn run(args: Args) -> Result<(), Failure> {

@@ -7,6 +7,7 @@ use prone::foreign_text;
 /// Where commands print their results. Whatever is printed there goes through one place, so that no
 /// printer can forget it; JSON has its own escapes by then
 /// ([`prone_record::output::json_text`]).
+#[expect(clippy::disallowed_methods, reason = "the one place")]
 pub(crate) fn out() -> Printed {
     Printed(io::stdout().lock())
 }

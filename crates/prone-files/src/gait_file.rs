@@ -22,7 +22,7 @@
 use serde::Deserialize;
 use toml::Spanned;
 
-use prone::foreign_text::Quoted;
+use prone::foreign_text::{Quoted, escaped_lines, is_hidden};
 use prone::gait::{Gait, LimitsPolicy};
 use prone::mapping::{ArmMode, MappingVariant};
 
@@ -100,7 +100,7 @@ pub(crate) struct Head<'a> {
 /// Header, name, description, mapping, arms and limits.
 pub(crate) fn write_head(head: &Head<'_>, header: &str) -> String {
     let mut text = String::new();
-    for line in header.lines() {
+    for line in escaped_lines(header).lines() {
         text.push_str(format!("# {line}").trim_end());
         text.push('\n');
     }
@@ -120,9 +120,17 @@ pub(crate) fn write_head(head: &Head<'_>, header: &str) -> String {
     text
 }
 
-/// A text as a TOML string.
+/// A text as a TOML string, with an escape for each letter that is not to be seen.
 pub(crate) fn quoted(text: &str) -> String {
-    toml::Value::from(text).to_string()
+    if !text.contains(|letter| letter != '\n' && is_hidden(letter)) {
+        return toml::Value::from(text).to_string();
+    }
+    let letter = |letter| match letter {
+        '"' | '\\' => format!("\\{letter}"),
+        letter if is_hidden(letter) => format!("\\U{:08x}", u32::from(letter)),
+        letter => letter.to_string(),
+    };
+    format!("\"{}\"", text.chars().map(letter).collect::<String>())
 }
 
 #[derive(Debug, Deserialize)]
@@ -231,7 +239,11 @@ linear_deg = [-30, -90]
             gait.limits = LimitsPolicy::Clamp;
             gait.mapping = MappingVariant::Original;
             gait.description = "a \"quoted\" word, a \\ and\na line".to_owned();
-            let text = write(&gait, "first line\n\nthird line");
+            assert_eq!(parse("b.toml", &write(&gait, "")).unwrap(), gait);
+            gait.description += "\u{1b}[2J \u{9b} \u{202e} \u{e0041}";
+            let text = write(&gait, "first line\u{1b}\n\nthird line");
+            assert!(!text.contains(|it| it != '\n' && is_hidden(it)), "{text:?}");
+            let text = text.replacen("\\u{1b}", "", 1);
             assert!(text.starts_with("# first line\n#\n# third line\nname = \"arched\"\n"));
             assert_eq!(parse("b.toml", &text).unwrap(), gait, "{text}");
         }

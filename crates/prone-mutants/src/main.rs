@@ -1,5 +1,10 @@
 //! Mutants of every file that prone reads, by the hundred thousand, or one by its number.
 
+#![expect(
+    clippy::disallowed_methods,
+    reason = "a tool for developers, which prints no foreign text"
+)]
+
 use std::io::{IsTerminal as _, Write as _};
 use std::path::PathBuf;
 use std::process::ExitCode;
