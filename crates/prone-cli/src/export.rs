@@ -19,6 +19,7 @@ use prone_report::export::ros_log::{self, RosLog};
 use prone_report::export::{numpy, table, urdf};
 
 use crate::args::{ExportArgs, Format};
+use crate::outputs::{Files, Kind};
 use crate::printed;
 use crate::{Failure, interrupt, record_folder};
 
@@ -29,11 +30,17 @@ pub(crate) fn run(args: &ExportArgs) -> Result<(), Failure> {
     }
     let run = RecordInfo::read(&args.run).map_err(Failure::input)?;
     let out = place(args)?;
+    let mut files = Files::default();
     if args.robot.is_some() {
         // Also where the format does without: a wrong answer is not taken for none.
-        origin::files(args, &run)?;
+        files = Files::of_robot(&origin::files(args, &run)?);
     }
-    interrupt::listen()?;
+    let kind = match args.format {
+        Format::Bag => Kind::Folder,
+        _ if is_film => Kind::Lasting,
+        _ => Kind::Quick,
+    };
+    files.writing("--out", &out, kind).check()?;
     let parts = args.format.parts();
     if parts.is_empty() {
         let (bytes, said) = of_run(args, &run)?;

@@ -84,6 +84,16 @@ pub enum RobotFolderError {
         /// The folder.
         folder: String,
     },
+    /// A file was named.
+    #[error(
+        "{file} is a file, and a robot is a folder with a {ROBOT_FILE} and the MJCF model that it names: {hint}"
+    )]
+    NotAFolder {
+        /// The file.
+        file: String,
+        /// What to do.
+        hint: String,
+    },
     /// There is no such robot.
     #[error(transparent)]
     Unknown(#[from] UnknownName),
@@ -124,13 +134,37 @@ impl RobotFiles {
     /// The robot that a user names: by a folder, as [`RobotFiles::read`] takes it, or by the name of
     /// one that ships, as [`shipped::robot`] takes it. A folder goes first.
     pub fn named(name: &Path) -> Result<Self, RobotFolderError> {
-        if name.exists() {
+        if name.is_dir() {
             return Self::read(name);
+        }
+        if name.exists() {
+            return Self::of_file(name);
         }
         match name.to_str().and_then(shipped::robot) {
             Some(shipped) => Ok(Self::shipped(shipped?)),
             None => Err(Self::unknown(name)),
         }
+    }
+
+    /// The robot that a file belongs to: its `robot.toml` stands for the folder.
+    fn of_file(file: &Path) -> Result<Self, RobotFolderError> {
+        let folder = match file.parent() {
+            Some(folder) if !folder.as_os_str().is_empty() => folder,
+            _ => Path::new("."),
+        };
+        if file.file_name().is_some_and(|name| name == ROBOT_FILE) {
+            return Self::read(folder);
+        }
+        let is_beside = folder.join(ROBOT_FILE).is_file();
+        let hint = if is_beside {
+            format!("give its folder, {}", folder.display())
+        } else if file.extension().is_some_and(|ending| ending == "urdf") {
+            "a URDF is not read: MuJoCo's `compile robot.urdf robot.xml` makes the MJCF model of it, and docs/robot.md says what its robot.toml holds".to_owned()
+        } else {
+            format!("docs/robot.md says what its {ROBOT_FILE} holds")
+        };
+        let file = file.display().to_string();
+        Err(RobotFolderError::NotAFolder { file, hint })
     }
 
     /// Why nothing is named so.

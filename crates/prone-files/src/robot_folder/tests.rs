@@ -249,3 +249,26 @@ fn a_robot_that_ships_is_known_by_name() {
         assert_eq!(message, built_in);
     }
 }
+
+/// A file of a robot leads to its folder, or to what has to be done.
+#[test]
+fn a_file_is_taken_for_its_folder_or_refused_with_what_to_do() {
+    let home = tempfile::tempdir().unwrap();
+    let at = |name: &str| home.path().join(name);
+    fs::create_dir(at("robot")).unwrap();
+    let toml = shipped::NAO.toml.replacen("family = \"nao\"\n", "", 1);
+    fs::write(at("robot/robot.toml"), toml).unwrap();
+    fs::write(at("robot/robot.xml"), shipped::NAO.mjcf).unwrap();
+    fs::write(at("a.urdf"), "<robot/>").unwrap();
+    fs::write(at("a.xml"), "<mujoco/>").unwrap();
+    let folder = RobotFiles::named(&at("robot")).unwrap();
+    assert_eq!(RobotFiles::named(&at("robot/robot.toml")).unwrap(), folder);
+    for (file, says) in [
+        ("robot/robot.xml", "give its folder, "),
+        ("a.urdf", "a URDF is not read: MuJoCo's `compile"),
+        ("a.xml", "docs/robot.md says what its robot.toml holds"),
+    ] {
+        let error = RobotFiles::named(&at(file)).unwrap_err().to_string();
+        assert!(error.contains(says), "{error}");
+    }
+}
