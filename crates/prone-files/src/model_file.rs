@@ -195,7 +195,11 @@ impl<'a> Reader<'a> {
             return Err(self.error(at, message));
         }
         let Some(element) = vocabulary::element(name) else {
-            let reason = vocabulary::refusal(name);
+            let reason = match (vocabulary::refusal(name), vocabulary::nearest_element(name)) {
+                (Some(reason), _) => reason.to_owned(),
+                (None, Some(meant)) => format!("did you mean <{meant}>?"),
+                (None, None) => "a robot needs none".to_owned(),
+            };
             let message = format!("<{}> is not read here: {reason}", foreign_text::cut(name));
             return Err(self.error(at, message));
         };

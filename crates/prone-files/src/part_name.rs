@@ -38,7 +38,15 @@ pub enum PartNameError {
         /// The name.
         name: String,
     },
-    /// Another part is called so, or alike.
+    /// Another part is called so.
+    #[error("{kind} {name} is there twice")]
+    Twice {
+        /// What it names.
+        kind: &'static str,
+        /// The name.
+        name: String,
+    },
+    /// Another part is called alike.
     #[error(
         "{kind} {name} is called like {kind} {other}: names differ in more than _, - and ., which are one in topics of ROS"
     )]
@@ -126,7 +134,12 @@ pub fn check_distinct<'a>(
     for (index, name) in names.into_iter().enumerate() {
         if let Some(other) = seen.insert(key(name), name) {
             let (name, other) = (name.to_owned(), other.to_owned());
-            return Err((index, PartNameError::Alike { kind, name, other }));
+            let error = if name == other {
+                PartNameError::Twice { kind, name }
+            } else {
+                PartNameError::Alike { kind, name, other }
+            };
+            return Err((index, error));
         }
     }
     Ok(())

@@ -79,9 +79,9 @@ pub struct RobotFile {
 #[serde(deny_unknown_fields)]
 pub struct ChainTable {
     /// Toe contact to elbow, mm.
-    pub span_mm: f64,
+    pub span_mm: Number,
     /// Shoulder to elbow in the sagittal plane, mm; the shoulder roll is solved for it.
-    pub projected_upper_arm_mm: f64,
+    pub projected_upper_arm_mm: Number,
     /// Left limbs.
     pub left: SideTable,
     /// Right limbs.

@@ -92,10 +92,14 @@ pub fn read_within(folder: &Path, file: &str, largest_bytes: u64) -> io::Result<
 /// Opens a regular file. A pipe would be waited for, a device may never end: both are opened without
 /// waiting, looked at, and refused.
 fn open_regular(path: &Path) -> io::Result<File> {
-    let waits_not = i32::try_from(OFlags::NONBLOCK.bits()).unwrap_or_default();
+    #[expect(
+        clippy::cast_possible_wrap,
+        reason = "a flag of the system, far below the sign"
+    )]
+    const WAITS_NOT: i32 = OFlags::NONBLOCK.bits() as i32;
     let opened = OpenOptions::new()
         .read(true)
-        .custom_flags(waits_not)
+        .custom_flags(WAITS_NOT)
         .open(path);
     // A socket cannot be opened at all.
     let is_regular = |found: &fs::Metadata| found.is_file();
@@ -177,6 +181,7 @@ mod tests {
             "/dev/zero",
         ] {
             let refused = read_bytes(&at(name), 10).unwrap_err().to_string();
+            // A terminal that is none of the process's cannot be opened at all.
             assert!(
                 refused == "it is not a regular file" || name == "/dev/tty",
                 "{name}: {refused}"

@@ -37,7 +37,7 @@ pub(crate) fn check(loaded: &LoadedRobot) -> Result<(), String> {
             0.0..=1e5,
         ),
         ("stiffness of a joint", model.jnt_stiffness(), 0.0..=1e6),
-        ("gravity compensation", model.body_gravcomp(), 0.0..=1.0),
+        ("gravity compensation", model.body_gravcomp(), 0.0..=0.0),
     ];
     for (what, values, bounds) in engine {
         all_within(what, values, &bounds)?;
@@ -65,12 +65,12 @@ pub(crate) fn check(loaded: &LoadedRobot) -> Result<(), String> {
 
 /// What the loader hands to everyone.
 fn data(robot: &Robot) -> Result<(), String> {
-    all_within("mass of the robot, kg", &[robot.mass()], &(0.05..=499.0))?;
+    all_within("mass of the robot, kg", &[robot.mass()], &(0.01..=1e3))?;
     for body in &robot.bodies {
         all_within(
             &format!("mass of {:?}", body.name),
             &[body.mass],
-            &(0.0..=499.0),
+            &(0.0..=1e3),
         )?;
         all_within(
             "centre of mass",

@@ -110,14 +110,6 @@ impl Bed {
         self.write(Path::new(place(format)), text.as_bytes())
     }
 
-    /// Puts back what was mutated, so that the bed can be used for another format.
-    ///
-    /// # Errors
-    /// [`io::Error`].
-    pub fn mend(&self, format: Format, seeds: &[String]) -> io::Result<()> {
-        self.put(format, &seeds[0])
-    }
-
     fn write(&self, place: &Path, bytes: &[u8]) -> io::Result<()> {
         let path = self.path().join(place);
         fs::create_dir_all(path.parent().unwrap_or(self.path()))?;

@@ -221,22 +221,22 @@ const MODELS: &[Refusal] = &[
     (
         "<joint armature=\".005\"/>",
         "<joint armature=\".005\" frictionloss=\"2\"/>",
-        "nao/robot.xml:56:9: joint HeadYaw: frictionloss 2 is outside 0..1.5470 N·m: its motor overcomes the dry friction",
+        "nao/robot.xml:56:9: joint HeadYaw: frictionloss 2 is outside 0..0.6447 N·m: half of what its motor gives is left after the dry friction",
     ),
     (
         "<joint armature=\".005\"/>",
         "<joint armature=\".005\" damping=\"20\"/>",
-        "nao/robot.xml:56:9: joint HeadYaw: damping 20 is outside 0..4.1530 N·m·s/rad: its motor moves it at a twentieth of its speed limit",
+        "nao/robot.xml:56:9: joint HeadYaw: damping 20 is outside 0..3.4613 N·m·s/rad: its motor moves it at a twentieth of its speed limit",
     ),
     (
         "<joint armature=\".005\"/>",
         "<joint armature=\".005\" stiffness=\"100\"/>",
-        "nao/robot.xml:56:9: joint HeadYaw: stiffness 100 is outside 0..1.4834 N·m/rad: its motor moves it against the spring",
+        "nao/robot.xml:56:9: joint HeadYaw: stiffness 100 is outside 0..1.2363 N·m/rad: its motor moves it against the spring",
     ),
     (
         "<joint armature=\".005\"/>",
         "<joint armature=\"50\"/>",
-        "nao/robot.xml:56:9: joint HeadYaw: armature 50 is outside 0..1.5470 kg·m²: its motor turns its own rotor",
+        "nao/robot.xml:56:9: joint HeadYaw: armature 50 is outside 0..0.1895 kg·m²: its motor turns its own rotor, which is a part of the robot",
     ),
     (
         "<body name=\"torso\"",
@@ -246,7 +246,7 @@ const MODELS: &[Refusal] = &[
     (
         "<compiler angle",
         "<compiler settotalmass=\"1e-6\" angle",
-        "nao/robot.xml:22:13: settotalmass: 0.000001 is outside 0.05..500 kg: no humanoid is lighter or heavier",
+        "nao/robot.xml:22:13: the mass of the robot 1.000e-6 is outside 0.05..500 kg: no humanoid is lighter or heavier",
     ),
     (
         "<compiler angle",
@@ -276,17 +276,17 @@ const MODELS: &[Refusal] = &[
     (
         "name=\"RKneePitch\" axis=\"0 1 0\"",
         "name=\"RKneePitch\" axis=\"0 -1 0\"",
-        "nao/robot.xml:140:54: the stops of LKneePitch and RKneePitch do not mirror each other: RKneePitch has -0.0923..2.1125 rad, and the image of LKneePitch is -2.1125..0.0923 rad; at most 0.2 rad may they be apart, as both sides are commanded alike",
+        "nao/robot.xml:140:54: the stops of LKneePitch and RKneePitch do not mirror each other: RKneePitch has -0.0923..2.1125 rad, and the image of LKneePitch is -2.1125..0.0923 rad: 2.0202 rad apart, more than the 0.2 rad allowed, as both sides are commanded alike",
     ),
     (
         "name=\"RHipRoll\" axis=\"1 0 0\"",
         "name=\"RHipRoll\" axis=\"1 .2 0\"",
-        "nao/robot.xml:129:34: the axes of LHipRoll and RHipRoll do not mirror each other: they are 0.1974 rad apart; at most 0.05 rad may they be apart, as both sides are commanded alike",
+        "nao/robot.xml:129:34: the axes of LHipRoll and RHipRoll do not mirror each other: 0.1974 rad apart, more than the 0.05 rad allowed, as both sides are commanded alike",
     ),
     (
         "name=\"RHipRoll\" axis=\"1 0 0\" range=\"-.7905 .3795\"",
         "name=\"RHipRoll\" axis=\"1 0 0\" range=\"-.3795 .7905\"",
-        "nao/robot.xml:129:47: the stops of LHipRoll and RHipRoll do not mirror each other: RHipRoll has -0.3795..0.7905 rad, and the image of LHipRoll is -0.7905..0.3795 rad; at most 0.2 rad may they be apart, as both sides are commanded alike",
+        "nao/robot.xml:129:47: the stops of LHipRoll and RHipRoll do not mirror each other: RHipRoll has -0.3795..0.7905 rad, and the image of LHipRoll is -0.7905..0.3795 rad: 0.411 rad apart, more than the 0.2 rad allowed, as both sides are commanded alike",
     ),
     (
         "class=\"visual\" type=\"capsule\" size=\".022\"",
@@ -297,6 +297,26 @@ const MODELS: &[Refusal] = &[
         "<site name=\"LToe\"",
         "<site user=\"1 1\" name=\"LToe\"",
         "nao/robot.xml:114:25: user of <site> is not read here: nothing uses such numbers, and their memory has no bound",
+    ),
+    (
+        "name=\"RAnkleRoll\" axis=\"1 0 0\"",
+        "name=\"RAnkleRoll\" frictionloss=\"1\" axis=\"1 0 0\"",
+        "nao/robot.xml:153:44: frictionloss of LAnkleRoll and RAnkleRoll differ: 0 and 1 N·m, more than the 0.2500 N·m allowed, as both sides are commanded alike",
+    ),
+    (
+        "<joint armature=\".005\"/>",
+        "<joint armature=\".005\" margin=\"1\"/>",
+        "nao/robot.xml:25:28: margin: 1 is outside 0..0.01 rad: a stop acts at its angle",
+    ),
+    (
+        "solref=\".02 1\"",
+        "solref=\"-1000 -.001\"",
+        "nao/robot.xml:26:49: solref: -1000 -0.001 is neither a time constant of 0.0001 to 0.5 s with a damping ratio of 0.05 to 20, nor minus a stiffness and minus a damping of the same: a contact like that would not hold",
+    ),
+    (
+        "<inertial mass=\"1.04956\" pos=\"-.00413 0 .04342\"\n                fullinertia=\".00308361 .0028835 .0015924 1.43116e-5 -3.30211e-5 -2.70793e-5\"/>",
+        "<inertial mass=\"1.04956\" pos=\"-.00413 0 .04342\" diaginertia=\".308361 .28835 .15924\"/>",
+        "nao/robot.xml:45:7: body torso: with 3.084e-1 kg·m² and 1.04956 kg its radius of gyration 5.42e-1 m is outside 6.0e-4..0.281 m: its mass is within what it reaches to",
     ),
 ];
 
@@ -420,12 +440,12 @@ const TABLES: &[Refusal] = &[
     (
         "span_mm = 430.0",
         "span_mm = 430000.0",
-        "nao/robot.toml:15:7: span_mm must be at most 10000, not 430000",
+        "nao/robot.toml:11:11: span_mm must be at most 10000, not 430000",
     ),
     (
         "span_mm = 430.0",
         "span_mm = nan",
-        "nao/robot.toml:15:7: span_mm must be positive and finite, not NaN",
+        "nao/robot.toml:11:11: span_mm must be positive and finite, not NaN",
     ),
     (
         "ankle_offset_deg = 60.0",
@@ -620,12 +640,12 @@ const TABLES: &[Refusal] = &[
     (
         "effort_nm = 1.547",
         "effort_nm = 5.0",
-        "nao/robot.toml:80:13: joint HeadYaw: effort_nm 5 is outside 0..4.29772 N·m: no current limit is far above what the motor gives at stall",
+        "nao/robot.toml:80:13: joint HeadYaw: effort_nm 5 is outside 0.01074..4.29772 N·m: a current limit is a part of what the motor gives at stall, or little above it",
     ),
     (
         "speed_rad_s = 7.45",
         "speed_rad_s = 0.00001",
-        "nao/robot.toml:81:15: joint HeadYaw: speed_rad_s 1.000e-5 is outside 0.05..200 rad/s: a joint moves within seconds",
+        "nao/robot.toml:81:15: joint HeadYaw: speed_rad_s 1.000e-5 is outside 0.2..200 rad/s: a joint moves within seconds",
     ),
     (
         "servo_stiffness_nm_rad = 80.0",

@@ -34,21 +34,43 @@ pub fn lines(text: &str) -> impl Iterator<Item = Line> {
         .from_reader(text.as_bytes());
     // A text in memory of any number of cells has no errors.
     let records = reader.into_records().map_while(Result::ok);
+    let mut counter = Counter {
+        text: text.as_bytes(),
+        byte: 0,
+        ends: 0,
+    };
     records.filter_map(move |cells| {
+        let number = cells.position().map_or(0, |begin| counter.line(begin));
         if cells.iter().all(|cell| cell.trim().is_empty()) {
             return None;
         }
-        let number = cells.position().map_or(0, |begin| line_of(text, begin));
         Some(Line { number, cells })
     })
 }
 
-/// The line of a record, which begins with the empty lines before it.
-fn line_of(text: &str, begin: &csv::Position) -> usize {
-    let [line, byte] = [begin.line(), begin.byte()].map(|it| usize::try_from(it).unwrap_or(0));
-    let rest = text.as_bytes().get(byte..).unwrap_or_default();
-    let empty = rest.iter().take_while(|byte| matches!(byte, b'\n' | b'\r'));
-    line + empty.filter(|byte| **byte == b'\n').count()
+/// Counts lines on the way through a text, whatever ends them.
+struct Counter<'t> {
+    text: &'t [u8],
+    /// How far it has come: bytes, and ends of lines.
+    byte: usize,
+    ends: usize,
+}
+
+impl Counter<'_> {
+    /// The line of a record, which begins with the empty lines before it.
+    fn line(&mut self, begin: &csv::Position) -> usize {
+        let begin = usize::try_from(begin.byte()).unwrap_or(usize::MAX);
+        while let Some(byte) = self.text.get(self.byte) {
+            let is_end = matches!(byte, b'\n' | b'\r');
+            if self.byte >= begin && !is_end {
+                break;
+            }
+            let is_half = *byte == b'\r' && self.text.get(self.byte + 1) == Some(&b'\n');
+            self.ends += usize::from(is_end && !is_half);
+            self.byte += 1;
+        }
+        self.ends + 1
+    }
 }
 
 impl Line {
@@ -165,6 +187,10 @@ mod tests {
         }
         let numbers: Vec<usize> = lines("a\n\n\nb\n").map(|line| line.number).collect();
         assert_eq!(numbers, [1, 4]);
+        let numbers: Vec<usize> = lines("a\r\rb\r\nc\n\n\"d\ne\"\nf")
+            .map(|line| line.number)
+            .collect();
+        assert_eq!(numbers, [1, 3, 4, 6, 8]);
         assert_eq!(cells("a\n\"b\nc\"\n"), [["a"], ["b\nc"]]);
     }
 

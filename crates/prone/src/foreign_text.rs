@@ -43,12 +43,12 @@ pub const fn is_hidden(letter: char) -> bool {
     )
 }
 
-/// A text in one line, with every hidden letter as `\u{1b}`.
+/// A text in one line, with every hidden letter written as its number, such as `\u{1b}`.
 pub fn escaped(text: &str) -> Cow<'_, str> {
     replaced(text, is_hidden, show)
 }
 
-/// A text of lines, with every hidden letter but their ends as `\u{1b}`.
+/// A text of lines, with every hidden letter but their ends written as its number, such as `\u{1b}`.
 pub fn escaped_lines(text: &str) -> Cow<'_, str> {
     replaced(text, |it| it != '\n' && is_hidden(it), show)
 }

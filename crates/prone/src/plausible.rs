@@ -28,11 +28,15 @@ const CENTRE_OUTSIDE: f64 = 0.12;
 /// Effort limit over weight times length of the chain. That of the NAO's wrist is 0.014.
 const EFFORT_SHARE: (f64, f64) = (1e-4, 50.0);
 /// Speed limits of joints, rad/s.
-const SPEEDS: (f64, f64) = (0.05, 200.0);
+const SPEEDS: (f64, f64) = (0.2, 200.0);
+/// Least angle between the stops of a joint, rad: three degrees.
+const LEAST_TURN: f64 = 0.05;
+/// Length that the planted chain spans, over that of the chain.
+const SPAN_SHARE: (f64, f64) = (0.2, 1.2);
 /// Continuous torque over stall torque of a motor.
 const CONTINUOUS_SHARE: (f64, f64) = (1e-3, 1.0);
 /// Effort limit over the motor's stall torque at the joint.
-const EFFORT_OVER_STALL: f64 = 2.0;
+const EFFORT_OVER_STALL: (f64, f64) = (0.005, 2.0);
 /// Stated lengths over that of the chain.
 const LENGTH_SHARE: (f64, f64) = (0.3, 4.0);
 
@@ -52,8 +56,8 @@ impl From<AsymmetryError> for Implausible {
     }
 }
 
-/// Checks a robot whose chain is that of two legs and two arms; returns in what its sides differ, which
-/// small asymmetries of real models do.
+/// Checks a robot whose chain is that of two legs and two arms; returns the small differences
+/// between left and right that real models have.
 ///
 /// # Errors
 /// [`Implausible`], the first number that no robot has.
@@ -125,6 +129,16 @@ fn check_lengths(robot: &Robot, length: f64) -> Result<(), Implausible> {
         bound,
         " mm",
         of_the_chain,
+    )?;
+    let (least, largest) = SPAN_SHARE;
+    let stretched = "the chain from toe to elbow, stretched out, is what the model says";
+    within(
+        About::Span,
+        "span_mm",
+        robot.chain.span * 1e3,
+        (least * length * 1e3, largest * length * 1e3),
+        " mm",
+        stretched,
     )?;
     match robot.standing_height {
         Some(metres) => {
@@ -201,13 +215,21 @@ fn check_joint(robot: &Robot, id: JointId, joint: &Joint, length: f64) -> Result
             "a joint of a limb turns by less than two turns",
         )?;
     }
+    within(
+        About::Range(id),
+        &format!("joint {name}: the angle between its stops,"),
+        stops.upper - stops.lower,
+        (LEAST_TURN, 2.0 * bounds::STOP),
+        " rad",
+        "a joint turns; a model without angle=\"radian\" counts degrees",
+    )?;
     let weight = robot.mass() * GRAVITY * length;
-    let (least, largest) = EFFORT_SHARE;
+    let (least_effort, largest_effort) = (EFFORT_SHARE.0 * weight, EFFORT_SHARE.1 * weight);
     within(
         About::Effort(id),
         &format!("joint {name}: effort_nm"),
         joint.effort_limit,
-        (least * weight, largest * weight),
+        (least_effort, largest_effort),
         " N·m",
         "a motor moves some of the robot's weight, and is carried by it",
     )?;
@@ -246,52 +268,62 @@ fn check_joint(robot: &Robot, id: JointId, joint: &Joint, length: f64) -> Result
         About::Effort(id),
         &format!("joint {name}: effort_nm"),
         joint.effort_limit,
-        (0.0, EFFORT_OVER_STALL * motor.stall),
+        (
+            EFFORT_OVER_STALL.0 * motor.stall,
+            EFFORT_OVER_STALL.1 * motor.stall,
+        ),
         " N·m",
-        "no current limit is far above what the motor gives at stall",
+        "a current limit is a part of what the motor gives at stall, or little above it",
+    )?;
+    within(
+        About::Stall(id),
+        &format!("joint {name}: stall torque"),
+        motor.stall,
+        (least_effort, largest_effort),
+        " N·m at the joint",
+        "a motor moves some of the robot's weight, and is carried by it",
     )
+}
+
+/// Least and largest coordinates of what a body is known to reach to, and a margin around that, m in the
+/// body's frame: its hinge, the hinges and bodies that hang on it, its shapes, the chain's ends.
+pub fn reach(robot: &Robot, body: BodyId, length: f64) -> (DVec3, DVec3) {
+    let margin = DVec3::splat(CENTRE_OUTSIDE * length);
+    let mut reach = (DVec3::ZERO, DVec3::ZERO);
+    let mut add = |point: DVec3| reach = (reach.0.min(point), reach.1.max(point));
+    for joint in &robot.joints {
+        let child = &robot.bodies[joint.body.0];
+        if joint.body == body {
+            add(joint.anchor.metres());
+        } else if child.parent == Some(body) {
+            add((child.parent_from_body * joint.anchor).metres());
+        }
+    }
+    for child in robot.bodies.iter().filter(|it| it.parent == Some(body)) {
+        add(child.parent_from_body.origin().metres());
+    }
+    for shape in robot.shapes.iter().filter(|it| it.body == body) {
+        let at = shape.link_from_geom.origin().metres();
+        let inverse = shape.link_from_geom.rotation().inverse();
+        let half = DVec3::from_array(DVec3::AXES.map(|axis| shape.solid.reach(inverse * axis)));
+        add(at - half);
+        add(at + half);
+    }
+    for side in robot.chain.sides() {
+        let ends = [side.toe, side.elbow].into_iter();
+        ends.filter(|(of, _)| *of == body)
+            .for_each(|(_, point)| add(point.metres()));
+    }
+    (reach.0 - margin, reach.1 + margin)
 }
 
 /// Each body's centre of mass is where the body is: between its hinge, what hangs on it, and its shapes.
 fn check_centres(robot: &Robot, length: f64) -> Result<(), Implausible> {
-    let margin = DVec3::splat(CENTRE_OUTSIDE * length);
     for (index, body) in robot.bodies.iter().enumerate() {
         if body.mass <= 0.0 {
             continue;
         }
-        let mut reach = (DVec3::ZERO, DVec3::ZERO);
-        let mut add = |point: DVec3| reach = (reach.0.min(point), reach.1.max(point));
-        for joint in &robot.joints {
-            let child = &robot.bodies[joint.body.0];
-            if joint.body == BodyId(index) {
-                add(joint.anchor.metres());
-            } else if child.parent == Some(BodyId(index)) {
-                add((child.parent_from_body * joint.anchor).metres());
-            }
-        }
-        for child in robot
-            .bodies
-            .iter()
-            .filter(|it| it.parent == Some(BodyId(index)))
-        {
-            add(child.parent_from_body.origin().metres());
-        }
-        for shape in robot.shapes.iter().filter(|it| it.body == BodyId(index)) {
-            let at = shape.link_from_geom.origin().metres();
-            let inverse = shape.link_from_geom.rotation().inverse();
-            let half = DVec3::AXES.map(|axis| shape.solid.reach(inverse * axis));
-            let half = DVec3::from_array(half);
-            add(at - half);
-            add(at + half);
-        }
-        for side in robot.chain.sides() {
-            for (of, point) in [side.toe, side.elbow] {
-                if of == BodyId(index) {
-                    add(point.metres());
-                }
-            }
-        }
-        let (least, largest) = (reach.0 - margin, reach.1 + margin);
+        let (least, largest) = reach(robot, BodyId(index), length);
         let centre = body.centre_of_mass.metres();
         for (place, axis) in ["x", "y", "z"].into_iter().enumerate() {
             within(
@@ -353,12 +385,17 @@ mod tests {
             ),
             (
                 joint(|it| it.speed_limit = 1e-5),
-                "speed_rad_s 1.000e-5 is outside 0.05..200 rad/s",
+                "speed_rad_s 1.000e-5 is outside 0.2..200 rad/s",
             ),
             (
                 joint(|it| it.servo_stiffness = 0.01),
                 "servo_stiffness_nm_rad 0.01 is outside",
             ),
+            (
+                joint(|it| it.range.upper = it.range.lower + 0.01),
+                "the angle between its stops",
+            ),
+            (refusal(|it| it.chain.span *= 1e-3), "span_mm 0."),
             (
                 joint(|it| it.range.upper = 1e6),
                 "is outside -12.56637..12.56637 rad",
@@ -408,7 +445,10 @@ mod tests {
             }),
         ] {
             let message = refused.unwrap_err();
-            assert!(message.contains("at most 0.2"), "{message}");
+            assert!(
+                message.contains("allowed, as both sides are commanded alike"),
+                "{message}"
+            );
         }
     }
 }

@@ -247,6 +247,7 @@ fn implausible(at: Place<'_>, Implausible { about, message }: &Implausible) -> V
     let in_joint = |index, key| Place::Element(&joints, index).key(key).violation(message);
     match *about {
         About::Robot => bodies.violation(message),
+        About::Span => at.key("chain").key("span_m").violation(message),
         About::StandingHeight => at.key("standing_height_m").violation(message),
         About::LyingLength => at.key("lying_length_m").violation(message),
         About::Mass(body) => in_body(body.0, "mass_kg"),
@@ -256,6 +257,6 @@ fn implausible(at: Place<'_>, Implausible { about, message }: &Implausible) -> V
         About::Effort(joint) => in_joint(joint.0, "effort_limit_nm"),
         About::Speed(joint) => in_joint(joint.0, "speed_limit_rad_s"),
         About::Stiffness(joint) => in_joint(joint.0, "servo_stiffness_nm_rad"),
-        About::ContinuousTorque(joint) => in_joint(joint.0, "motor"),
+        About::ContinuousTorque(joint) | About::Stall(joint) => in_joint(joint.0, "motor"),
     }
 }

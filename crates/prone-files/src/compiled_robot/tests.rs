@@ -149,10 +149,13 @@ fn robots() -> impl Strategy<Value = Robot> {
             joint.effort_limit *= stronger;
             joint.speed_limit *= 0.9 + 0.1 * number();
             joint.servo_stiffness *= stronger;
-            let (speed, stall) = (joint.speed_limit, joint.effort_limit * (1.0 + number()));
+            let (speed, stall) = (
+                joint.speed_limit,
+                joint.effort_limit * (1.0 + 0.1 * number()),
+            );
             joint.motor = flags[1].then(|| Motor {
                 ratio: number() * 100.0,
-                nominal: stall * number(),
+                nominal: stall * (0.8 + 0.2 * number()),
                 stall,
                 no_load_speed: flags[2].then(|| speed * (1.0 + number())),
             });

@@ -1,7 +1,7 @@
 //! What the values of attributes may be: names, words, and numbers within bounds.
 
-use prone::foreign_text;
 use prone::robot::bounds;
+use prone::{foreign_text, odd_number};
 
 use crate::part_name;
 
@@ -29,6 +29,8 @@ pub(super) enum Value {
         /// Within what each of them is.
         bound: Bound,
     },
+    /// Two ends, the lower one first; without a range both are 0.
+    Range,
     /// `solref`: time constant, s, and damping ratio of a contact, or minus stiffness and damping.
     Softness,
     /// `solimp`: impedance by depth.
@@ -89,8 +91,9 @@ impl Bound {
     pub(super) const FRICTION: Self = Self::positive(10.0, "", "nothing sticks better");
     pub(super) const GRAVITY_COMPENSATION: Self =
         Self::positive(0.0, "", "gravity acts on all of a robot");
+    /// Of a robot's mass the bounds are those of every robot; −1 leaves it as it is.
     pub(super) const TOTAL_MASS: Self = Self {
-        least: bounds::TOTAL_MASS.0,
+        least: -1.0,
         largest: bounds::TOTAL_MASS.1,
         unit: " kg",
         protects: "no humanoid is lighter or heavier",
@@ -105,6 +108,7 @@ impl Bound {
         " kg·m²",
         "it repairs bodies without inertia, and makes none heavy",
     );
+    pub(super) const JOINT_MARGIN: Self = Self::positive(0.01, " rad", "a stop acts at its angle");
     pub(super) const PIXELS: Self = Self::positive(4096.0, "", "a picture is kept in memory");
 
     const fn positive(largest: f64, unit: &'static str, protects: &'static str) -> Self {
@@ -172,6 +176,7 @@ impl Value {
                     .into_iter()
                     .try_for_each(|number| bound.check(number))
             }
+            Self::Range => range(&read_numbers(text, 2)?),
             Self::Softness => softness(&read_numbers(text, 2)?),
             Self::Impedance => impedance(&read_numbers(text, 5)?),
         }
@@ -198,7 +203,14 @@ fn read_numbers(text: &str, most: usize) -> Result<Vec<f64>, String> {
     }
     let number = |word: &&str| {
         let read = word.parse::<f64>().ok();
-        read.ok_or_else(|| format!("{} is no number", foreign_text::cut(word)))
+        read.ok_or_else(|| {
+            let reason = match word.strip_suffix(',') {
+                Some(_) => Some("blanks, not commas, stand between numbers".to_owned()),
+                None => odd_number::explained(word),
+            };
+            let reason = reason.map_or_else(String::new, |reason| format!(": {reason}"));
+            format!("{} is no number{reason}", foreign_text::cut(word))
+        })
     };
     let numbers: Vec<f64> = words.iter().map(number).collect::<Result<_, _>>()?;
     numbers
@@ -207,18 +219,32 @@ fn read_numbers(text: &str, most: usize) -> Result<Vec<f64>, String> {
     Ok(numbers)
 }
 
+/// The lower end first.
+fn range(numbers: &[f64]) -> Result<(), String> {
+    match *numbers {
+        [lower, upper] if lower > upper => Err(format!(
+            "its lower end {lower} is above its upper end {upper}"
+        )),
+        [_, _] => Ok(()),
+        _ => Err("it has 2 numbers, not 1".to_owned()),
+    }
+}
+
 /// Contacts and stops hold: a time constant and a damping ratio, or a stiffness and a damping below zero.
 fn softness(numbers: &[f64]) -> Result<(), String> {
     /// Seconds: from a tenth of the shortest step to what lets a robot sink in visibly.
     const TIME_CONSTANT: std::ops::RangeInclusive<f64> = 1e-4..=0.5;
     const DAMPING_RATIO: std::ops::RangeInclusive<f64> = 0.05..=20.0;
-    const DIRECT: std::ops::RangeInclusive<f64> = -1e7..=-1e-3;
     let good = match *numbers {
         [time] => TIME_CONSTANT.contains(&time),
         [time, ratio] if time > 0.0 => {
             TIME_CONSTANT.contains(&time) && DAMPING_RATIO.contains(&ratio)
         }
-        [stiffness, damping] => DIRECT.contains(&stiffness) && DIRECT.contains(&damping),
+        // Minus stiffness k and minus damping b: the time constant is 2 / b, the ratio b / (2 √k).
+        [stiffness, damping] if stiffness < 0.0 && damping < 0.0 => {
+            TIME_CONSTANT.contains(&(2.0 / -damping))
+                && DAMPING_RATIO.contains(&(-damping / (2.0 * (-stiffness).sqrt())))
+        }
         _ => false,
     };
     if good {
@@ -226,7 +252,7 @@ fn softness(numbers: &[f64]) -> Result<(), String> {
     }
     let numbers = numbers.iter().map(f64::to_string);
     Err(format!(
-        "{} is neither a time constant of {} to {} s with a damping ratio of {} to {}, nor minus a stiffness and minus a damping up to 1e7: else nothing holds",
+        "{} is neither a time constant of {} to {} s with a damping ratio of {} to {}, nor minus a stiffness and minus a damping of the same: a contact like that would not hold",
         numbers.collect::<Vec<_>>().join(" "),
         TIME_CONSTANT.start(),
         TIME_CONSTANT.end(),
@@ -248,7 +274,7 @@ fn impedance(numbers: &[f64]) -> Result<(), String> {
     for (number, (what, least, largest)) in numbers.iter().zip(bounds) {
         if !(least..=largest).contains(number) {
             return Err(format!(
-                "{what}, {number}, is outside {least}..{largest}: else nothing holds"
+                "{what}, {number}, is outside {least}..{largest}: a contact like that would not hold"
             ));
         }
     }
@@ -281,8 +307,12 @@ mod tests {
             (one, "1e-3", "0x1p3"),
             (one, "1", "nan"),
             (one, "1", "1,5"),
+            (Value::Range, "-1 1", "1 -1"),
+            (Value::Range, "0 0", "1"),
             (Value::Softness, ".02 1", "0 1"),
             (Value::Softness, "-1000 -10", "-1000 10"),
+            (Value::Softness, "-1000 -10", "-1000 -.001"),
+            (Value::Softness, "-1000 -10", "-1e7 -1e7"),
             (Value::Softness, ".02", "5 1"),
             (Value::Impedance, ".9 .95 .001 .5 2", "0 0 1"),
             (Value::Impedance, ".015 1 .022", ".9 .1"),

@@ -47,6 +47,16 @@ impl Element {
     }
 }
 
+/// The element that may have been meant, where one is near.
+pub(super) fn nearest_element(name: &str) -> Option<&'static str> {
+    /// Two letters more, less, wrong or exchanged.
+    const NEAR: usize = 2;
+    let names = ELEMENTS.iter().map(|element| element.name);
+    let near = names.map(|known| (osa_distance(known, name), known));
+    let nearest = near.filter(|(edits, _)| *edits <= NEAR).min();
+    nearest.map(|(_, known)| known)
+}
+
 /// The element of that name.
 pub(super) fn element(name: &str) -> Option<&'static Element> {
     ELEMENTS.iter().find(|element| element.name == name)
@@ -236,7 +246,7 @@ const ELEMENTS: &[Element] = &[
                 ("type", Word),
                 ("axis", THREE),
                 ("pos", THREE),
-                ("range", numbers(2, ANY)),
+                ("range", Value::Range),
                 ("limited", Word),
                 ("group", ONE),
                 ("armature", numbers(1, Bound::ARMATURE)),
@@ -244,7 +254,7 @@ const ELEMENTS: &[Element] = &[
                 ("stiffness", numbers(1, Bound::SPRING)),
                 ("springref", ONE),
                 ("frictionloss", numbers(1, Bound::FRICTION_LOSS)),
-                ("margin", ONE),
+                ("margin", numbers(1, Bound::JOINT_MARGIN)),
                 ("ref", ONE),
                 ("actuatorfrcrange", numbers(2, ANY)),
                 ("actuatorfrclimited", Word),
@@ -368,9 +378,9 @@ const ELEMENTS: &[Element] = &[
     on("gyro", FEW, &[&[("name", Name), ("site", Name)]]),
 ];
 
-/// Why an element is not read.
-pub(super) fn refusal(element: &str) -> &'static str {
-    match element {
+/// Why an element is not read, of those that MJCF has.
+pub(super) fn refusal(element: &str) -> Option<&'static str> {
+    let reason = match element {
         "actuator" => "servos are added by the program, from robot.toml",
         "keyframe" => "postures are in robot.toml",
         "size" => "the engine finds its sizes itself",
@@ -378,8 +388,9 @@ pub(super) fn refusal(element: &str) -> &'static str {
         "extension" | "plugin" => "the engine runs without plugins",
         "mesh" | "hfield" | "skin" | "texture" | "deformable" | "flex" | "flexcomp"
         | "composite" => "robots are made of primitives",
-        _ => "a robot needs none",
-    }
+        _ => return None,
+    };
+    Some(reason)
 }
 
 /// Why an attribute is not read.

@@ -13,6 +13,45 @@ const ELEMENTS: [&str; 13] = [
     "polyline", "text", "image",
 ];
 
+/// The attributes of our own drawings, beside `href` and `clip-path`.
+const ATTRIBUTES: [&str; 35] = [
+    "alt",
+    "aria-label",
+    "aria-labelledby",
+    "class",
+    "cx",
+    "cy",
+    "d",
+    "fill",
+    "fill-opacity",
+    "font-family",
+    "font-size",
+    "font-style",
+    "font-weight",
+    "height",
+    "id",
+    "opacity",
+    "paint-order",
+    "points",
+    "preserveAspectRatio",
+    "r",
+    "role",
+    "rx",
+    "shape-rendering",
+    "stroke",
+    "stroke-dasharray",
+    "stroke-linecap",
+    "stroke-linejoin",
+    "stroke-opacity",
+    "stroke-width",
+    "text-anchor",
+    "transform",
+    "viewBox",
+    "width",
+    "x",
+    "y",
+];
+
 /// Most elements, texts and blanks of a drawing.
 const MOST_NODES: u32 = 500_000;
 
@@ -41,13 +80,15 @@ fn check_node(node: Node<'_, '_>) -> Result<(), String> {
         let (name, value) = (attribute.name(), attribute.value());
         let loads = match name {
             "href" => !value.starts_with("data:image/png;base64,") && !value.starts_with('#'),
-            "style" => true,
-            // A reference to a part of the drawing has no letter before its hash.
-            _ => value.contains("url(") && !value.starts_with("url(#"),
+            // An attribute of our own drawings refers to a part of the drawing alone, and to one.
+            "clip-path" => !(value.starts_with("url(#") && value.matches("url").count() == 1),
+            _ => !ATTRIBUTES.contains(&name) || value.contains(['\\', '(']) && name != "transform",
         };
-        if loads || name.starts_with("on") {
+        if loads {
             let name = foreign_text::cut(name);
-            return Err(format!("{name} of an element may run or load something"));
+            return Err(format!(
+                "{name} of an element is not one of a drawing of ours"
+            ));
         }
     }
     Ok(())
@@ -73,6 +114,10 @@ mod tests {
             r#"<image href="data:image/svg+xml;base64,AAAA"/>"#,
             r#"<rect fill="url(https://example.org/#a)"/>"#,
             r#"<rect style="fill:url(//example.org)"/>"#,
+            r#"<rect fill="URL(https://example.org/#a)"/>"#,
+            r#"<rect clip-path="url(#a), url(https://example.org)"/>"#,
+            r#"<rect mask="url(#a)"/>"#,
+            r#"<rect fill="u\72l(https://example.org)"/>"#,
             "<foreignObject><p xmlns='http://www.w3.org/1999/xhtml'>x</p></foreignObject>",
             r#"<a href="javascript:alert(1)"><text>x</text></a>"#,
             r#"<set attributeName="onload" to="alert(1)"/>"#,

@@ -220,14 +220,14 @@ impl Lookup<'_> {
 
     fn chain(&self, table: &ChainTable, parts: &Parts) -> Result<ChainLayout, FileError> {
         let place = &table.left.toe;
-        let arm = table.projected_upper_arm_mm;
+        let (span, arm) = (&table.span_mm, &table.projected_upper_arm_mm);
         let published = table.published.as_ref();
         let fixed_arm = table.fixed_arm.as_ref();
         Ok(ChainLayout {
             left: self.side(&table.left, parts)?,
             right: self.side(&table.right, parts)?,
-            span: self.length(place, "span_mm", table.span_mm)?,
-            projected_upper_arm: self.length(place, "projected_upper_arm_mm", arm)?,
+            span: self.length(span, "span_mm", *span.get_ref())?,
+            projected_upper_arm: self.length(arm, "projected_upper_arm_mm", *arm.get_ref())?,
             published: published
                 .map(|table| self.published(place, table))
                 .transpose()?,

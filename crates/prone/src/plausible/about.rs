@@ -7,6 +7,8 @@ use crate::robot::{BodyId, JointId};
 pub enum About {
     /// The robot.
     Robot,
+    /// How far its planted chain spans.
+    Span,
     /// How high it stands.
     StandingHeight,
     /// How long it lies.
@@ -27,6 +29,8 @@ pub enum About {
     Stiffness(JointId),
     /// Continuous torque of a joint's motor.
     ContinuousTorque(JointId),
+    /// Stall torque of a joint's motor.
+    Stall(JointId),
 }
 
 /// A number with as many digits as a reader needs.

@@ -1,13 +1,15 @@
 //! Which joint is which other one's mirror image.
 //!
 //! A mirror in the sagittal plane takes a point (x, y, z) to (x, −y, z) and an axis of rotation
-//! (x, y, z) to (−x, y, −z). Two hinges are twins where, at zero angles, one's axis is the other's
-//! mirrored and one's anchor is the other's mirrored. A hinge in the plane is its own twin. (Lines
-//! are not enough: the pitch axes of both sides are one line.)
+//! (x, y, z) to (−x, y, −z). On the way from the root to toe and forearm the hinges of the right limb
+//! are the twins of the left limb's in their order ([`limb_pairs`]), however exactly they mirror them,
+//! which [`crate::plausible`] bounds. Of the others, two are twins where, at zero angles, one's axis is
+//! the other's mirrored and one's anchor is the other's mirrored. A hinge in the plane is its own twin.
+//! (Lines are not enough: the pitch axes of both sides are one line.)
 
 use glam::DVec3;
 
-use super::{JointAngles, JointId, Robot};
+use super::{BodyId, JointAngles, JointId, Robot, SideLayout};
 
 /// How far a mirrored hinge may miss its twin, m and as a sine: rounding in a model file.
 const TOLERANCE: f64 = 1e-6;
@@ -33,17 +35,31 @@ impl Mirror {
         let hinges: Vec<(DVec3, DVec3)> = hinges
             .map(|joint| (poses.anchor(joint).metres(), poses.axis(joint)))
             .collect();
-        let twin = |&(anchor, axis): &(DVec3, DVec3)| {
+        let partners = limb_pairs(robot);
+        let partner = |index: usize| {
+            let mut pairs = partners
+                .iter()
+                .flat_map(|&[one, other]| [(one, other), (other, one)]);
+            pairs.find_map(|(one, other)| (one.0 == index).then_some(other.0))
+        };
+        let twin = |(index, &(anchor, axis)): (usize, &(DVec3, DVec3))| {
             let (anchor, axis) = (mirrored_point(anchor), mirrored_axis(axis));
-            let place = hinges.iter().position(|other| {
-                axis.cross(other.1).length() < TOLERANCE && (other.0 - anchor).length() < TOLERANCE
+            let place = partner(index).or_else(|| {
+                hinges.iter().position(|other| {
+                    axis.cross(other.1).length() < TOLERANCE
+                        && (other.0 - anchor).length() < TOLERANCE
+                })
             })?;
             Some(Twin {
                 joint: JointId(place),
-                sign: axis.dot(hinges[place].1).signum(),
+                sign: if axis.dot(hinges[place].1) < 0.0 {
+                    -1.0
+                } else {
+                    1.0
+                },
             })
         };
-        Self(hinges.iter().map(twin).collect())
+        Self(hinges.iter().enumerate().map(twin).collect())
     }
 
     /// The twin of a joint, `None` where the robot is not symmetric there.
@@ -61,6 +77,50 @@ impl Mirror {
         }
         mirrored
     }
+}
+
+/// The hinges of both sides' limbs by pairs, left and right, on the way from the root to toe and forearm;
+/// of a limb that has more of them on one side, as many as both have.
+pub(crate) fn limb_pairs(robot: &Robot) -> Vec<[JointId; 2]> {
+    let [left, right] = robot.chain.sides();
+    let mut pairs = Vec::new();
+    for end in LIMBS {
+        let [lefts, rights] = [left, right].map(|side| hinges_to(robot, end(robot, side)));
+        pairs.extend(
+            lefts
+                .into_iter()
+                .zip(rights)
+                .map(|(left, right)| [left, right]),
+        );
+    }
+    pairs
+}
+
+impl Robot {
+    /// The hinges of both sides' limbs by pairs, left and right, on the way from the root to toe and
+    /// forearm.
+    pub fn limb_pairs(&self) -> Vec<[JointId; 2]> {
+        limb_pairs(self)
+    }
+}
+
+/// The last body of a side's limb.
+type LimbEnd = fn(&Robot, &SideLayout) -> BodyId;
+
+/// Leg and arm.
+pub(crate) const LIMBS: [LimbEnd; 2] = [
+    |_, side| side.toe.0,
+    |robot, side| robot.joints[side.forearm[1].0].body,
+];
+
+/// The hinges on the way from the root to a body.
+pub(crate) fn hinges_to(robot: &Robot, body: BodyId) -> Vec<JointId> {
+    let hinges = robot
+        .up_to_root(body)
+        .filter_map(|body| robot.bodies[body.0].joint);
+    let mut hinges: Vec<JointId> = hinges.collect();
+    hinges.reverse();
+    hinges
 }
 
 /// The mirror image of a point or a direction.
