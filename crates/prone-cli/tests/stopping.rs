@@ -15,6 +15,9 @@ use rustix::process::{Pid, Signal, kill_process, test_kill_process};
 /// Far more than anything here takes.
 const LONGEST: Duration = Duration::from_secs(20);
 
+/// What `env` gives a program.
+const SIGNALS: &str = "--default-signal=HUP,INT,TERM";
+
 fn start(program: &str, arguments: &[&str], home: &Path) -> Child {
     Command::new(program)
         .args(arguments)
@@ -25,8 +28,11 @@ fn start(program: &str, arguments: &[&str], home: &Path) -> Child {
         .unwrap()
 }
 
+/// The program with the signals of a terminal, whatever these tests were begun with: in the background
+/// of a script Ctrl-C is ignored, and stays so.
 fn prone(arguments: &[&str], home: &Path) -> Child {
-    start(env!("CARGO_BIN_EXE_prone"), arguments, home)
+    let arguments = [&[SIGNALS, env!("CARGO_BIN_EXE_prone")], arguments].concat();
+    start("env", &arguments, home)
 }
 
 fn send(child: &Child, signal: Signal) {
@@ -107,7 +113,7 @@ const LONG: [&[&str]; 6] = [
 fn every_signal_is_answered_and_ends_with_the_same_code() {
     let signals = [Signal::INT, Signal::TERM, Signal::HUP];
     for (index, command) in LONG.into_iter().enumerate() {
-        for (wait_ms, signal) in [20, 900]
+        for (wait_ms, signal) in [200, 900]
             .into_iter()
             .zip(signals.into_iter().cycle().skip(index))
         {
@@ -187,7 +193,8 @@ fn a_stopped_film_ends_its_encoder() {
     for signals in [1, 2] {
         let path = std::env::var("PATH").unwrap();
         let record = short_crawl::record().to_str().unwrap();
-        let child = Command::new(env!("CARGO_BIN_EXE_prone"))
+        let child = Command::new("env")
+            .args([SIGNALS, env!("CARGO_BIN_EXE_prone")])
             .args(["export", record, "--format", "mp4", "--out", "film.mp4"])
             .env("PATH", format!("{}:{path}", tools.display()))
             .env("PIDFILE", &pid_file)

@@ -228,6 +228,10 @@ impl<'a> Reader<'a> {
             let checked = value.check(attribute.value(), |class| classes.contains(class));
             checked.map_err(|message| self.error(at, format!("{name}: {message}")))?;
         }
+        let ties = name == "joint" && node.parent().is_some_and(|it| it.has_tag_name("equality"));
+        if ties && let Some(message) = wrong_tie(node) {
+            return Err(self.error(at, message));
+        }
         if let Some(text) = node.children().find(|it| is_written(*it)) {
             let message = format!("text within <{name}>: MJCF says all in attributes");
             return Err(self.error(text.range().start, message));
@@ -349,6 +353,32 @@ impl Kept {
         }
         Ok(())
     }
+}
+
+/// Why an equality of a joint ties it to no other joint; nothing of one that does.
+fn wrong_tie(node: Node<'_, '_>) -> Option<String> {
+    /// Turns of the one joint per turn of the other, in either sense.
+    const RATIO: std::ops::RangeInclusive<f64> = 0.05..=20.0;
+    if node.attribute("joint2").is_none() {
+        return Some(
+            "it holds a joint still, where a robot has none: it names no joint2".to_owned(),
+        );
+    }
+    let polynomial = node.attribute("polycoef").unwrap_or("0 1 0 0 0");
+    let factors: Vec<f64> = polynomial
+        .split_ascii_whitespace()
+        .filter_map(|word| word.parse().ok())
+        .collect();
+    let ratio = factors.get(1).map_or(1.0, |ratio| ratio.abs());
+    let is_straight = factors.iter().skip(2).all(|factor| factor.abs() <= 0.0);
+    if RATIO.contains(&ratio) && is_straight {
+        return None;
+    }
+    Some(format!(
+        "polycoef: a joint follows another in a straight line, with a ratio of {} to {}",
+        RATIO.start(),
+        RATIO.end()
+    ))
 }
 
 /// Whether a node is text that says something.

@@ -40,12 +40,22 @@ const MODELS: &[Refusal] = &[
     ),
     (
         "</equality>",
-        "<weld body1=\"world\" body2=\"LFoot\"/></equality>",
-        "nao/robot.xml: equality number 1 ties the robot to the world",
+        "<weld body1=\"LHand\" body2=\"RHand\"/></equality>",
+        "nao/robot.xml:240:3: <weld> is not read here: bodies that do not move against each other are one body, or fixed to it",
+    ),
+    (
+        "</equality>",
+        "<joint joint1=\"LKneePitch\" polycoef=\"0.5 0 0 0 0\"/></equality>",
+        "nao/robot.xml:240:3: it holds a joint still, where a robot has none: it names no joint2",
+    ),
+    (
+        "</equality>",
+        "<joint joint1=\"LKneePitch\" joint2=\"RKneePitch\" polycoef=\"0 0 1 0 0\"/></equality>",
+        "nao/robot.xml:240:3: polycoef: a joint follows another in a straight line, with a ratio of 0.05 to 20",
     ),
     (
         "</worldbody>\n\n  <equality>",
-        "<site name=\"hook\"/></worldbody><equality><weld name=\"held\" site1=\"imu\" site2=\"hook\"/>",
+        "<site name=\"hook\"/></worldbody><equality><connect name=\"held\" site1=\"imu\" site2=\"hook\"/>",
         "nao/robot.xml: equality held ties the robot to the world",
     ),
     (

@@ -357,20 +357,6 @@ const ELEMENTS: &[Element] = &[
     on("exclude", FEW, &[NAMED, ENDS]),
     on("equality", FEW, &[NAMED, SOFT, &[("active", Word)]]),
     on("connect", FEW, &[NAMED, SOFT, ENDS, &[("active", Word)]]),
-    on(
-        "weld",
-        FEW,
-        &[
-            NAMED,
-            SOFT,
-            ENDS,
-            &[
-                ("active", Word),
-                ("relpose", numbers(7, ANY)),
-                ("torquescale", ONE),
-            ],
-        ],
-    ),
     on("sensor", 10, &[]),
     // All that may be said of a sensor of the inertial unit. What else the engine reads of one is
     // memory (a history of samples), or what the program adds (noise).
@@ -385,6 +371,7 @@ pub(super) fn refusal(element: &str) -> Option<&'static str> {
         "keyframe" => "postures are in robot.toml",
         "size" => "the engine finds its sizes itself",
         "include" | "attach" | "model" => "a model is one file",
+        "weld" => "bodies that do not move against each other are one body, or fixed to it",
         "extension" | "plugin" => "the engine runs without plugins",
         "mesh" | "hfield" | "skin" | "texture" | "deformable" | "flex" | "flexcomp"
         | "composite" => "robots are made of primitives",

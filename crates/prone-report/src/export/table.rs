@@ -1,5 +1,6 @@
 //! A record as one tidy CSV table: a line per instant and joint.
 
+use prone::foreign_text;
 use prone_record::recorded::Recorded;
 use prone_record::tables::{file, maybe, number};
 
@@ -13,7 +14,7 @@ pub fn csv(record: &Recorded) -> Result<Vec<u8>, csv::Error> {
         joints.map(move |(index, joint)| {
             [
                 number(row.time_s, 4),
-                joint.clone(),
+                foreign_text::escaped(joint).into_owned(),
                 recorded(row.command.as_slice()[index], 6),
                 recorded(row.angles.as_slice()[index], 6),
                 recorded(speeds[index], 4),
