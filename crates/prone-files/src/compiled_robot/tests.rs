@@ -155,7 +155,7 @@ fn robots() -> impl Strategy<Value = Robot> {
             );
             joint.motor = flags[1].then(|| Motor {
                 ratio: number() * 100.0,
-                nominal: stall * (0.8 + 0.2 * number()),
+                nominal: stall * (0.9 + 0.1 * number()),
                 stall,
                 no_load_speed: flags[2].then(|| speed * (1.0 + number())),
             });
