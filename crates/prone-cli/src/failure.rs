@@ -14,9 +14,9 @@ use prone::foreign_text;
 use prone_record::output::OutputError;
 use prone_record::single_file::WriteError;
 
-/// Longest message, bytes. Foreign texts in messages are cut where they are put in; this is for what a
-/// library says, and for paths.
-const LONGEST_MESSAGE: usize = 1_500;
+/// Longest message beside what was typed, bytes. Foreign texts in messages are cut where they are put in;
+/// this is for what a library says.
+const LONGEST_MESSAGE: usize = 900;
 
 /// Exit code of a run that the user stopped.
 pub(crate) const STOPPED: u8 = 130;
@@ -81,10 +81,12 @@ impl Failure {
 #[expect(clippy::disallowed_methods, reason = "the one place")]
 pub(crate) fn say(line: &str) {
     let line = foreign_text::escaped_lines(line);
+    // A path that is escaped is longer than what was typed.
+    let typed: usize = std::env::args_os().map(|it| it.len()).sum();
     let _ = writeln!(
         std::io::stderr(),
         "{}",
-        foreign_text::bounded(&line, LONGEST_MESSAGE)
+        foreign_text::bounded(&line, LONGEST_MESSAGE + 4 * typed)
     );
 }
 

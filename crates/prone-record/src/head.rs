@@ -6,6 +6,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use prone::foreign_text;
 use prone_files::text_file::{self, ReadError};
 
 use crate::output::RUN_FILE;
@@ -130,7 +131,7 @@ impl Head {
         if version != ours {
             return Err(HeadError::Version {
                 file,
-                found: version,
+                found: foreign_text::cut(&version).into_owned(),
                 ours,
             });
         }

@@ -153,6 +153,17 @@ struct Wording {
     alt: String,
 }
 
+/// Longest name of a figure's files, which have an end behind it.
+const LONGEST_STEM: usize = 150;
+
+/// A name of files that is no path and hides nothing, whatever the gait in it is called: of ASCII
+/// letters, digits, `-`, `_`, `+` and `.`.
+pub(crate) fn file_stem(named: &str) -> String {
+    let plain = |it: char| it.is_ascii_alphanumeric() || "-_+.".contains(it);
+    let letters = named.chars().map(|it| if plain(it) { it } else { '-' });
+    letters.take(LONGEST_STEM).collect()
+}
+
 /// `text` beginning with a capital.
 fn sentence(text: &str) -> String {
     let mut letters = text.chars();

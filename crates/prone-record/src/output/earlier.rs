@@ -9,6 +9,7 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
+use prone::foreign_text::escaped_json;
 use serde::Deserialize;
 
 use prone_files::text_file;
@@ -144,7 +145,7 @@ pub(super) fn record(artefacts: &Artefacts) -> Result<Vec<u8>, OutputError> {
     text.pop();
     text.truncate(text.trim_ascii_end().len());
     text.extend_from_slice(b",\n  \"artefacts\": ");
-    text.extend_from_slice(list.replace('\n', "\n  ").as_bytes());
+    text.extend_from_slice(escaped_json(&list).replace('\n', "\n  ").as_bytes());
     text.extend_from_slice(b"\n}\n");
     Ok(text)
 }

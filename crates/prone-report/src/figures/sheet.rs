@@ -8,7 +8,7 @@ use super::heat;
 use super::panel::Panel;
 use super::style::{Colour, INK, Marker, SHEET_WIDTH, Stroke, TEXT_SIZE, TITLE_SIZE};
 use super::svg::{Anchor, Canvas, Look, Point, Rect, TextStyle};
-use super::{Figure, FigureError, Wording};
+use super::{Figure, FigureError, Wording, file_stem};
 
 /// Paper around everything.
 const MARGIN: f64 = 12.0;
@@ -102,9 +102,10 @@ impl Sheet {
                 return Err(FigureError::Value { place, value });
             }
         }
+        let stem = file_stem(&wording.stem);
         Ok(Figure {
-            svg: self.draw(&wording.stem, &wording.title, &wording.alt),
-            stem: wording.stem,
+            svg: self.draw(&stem, &wording.title, &wording.alt),
+            stem,
             number: wording.number,
             title: wording.title,
             caption: wording.caption,

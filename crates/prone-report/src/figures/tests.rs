@@ -7,6 +7,17 @@ use prone_record::pulls::{ChainSample, PullRow};
 
 const ALL_S: [f64; 10] = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0];
 
+#[test]
+fn no_file_of_a_figure_is_a_path_or_hides_something() {
+    assert_eq!(file_stem("fig-24-low_175-angles"), "fig-24-low_175-angles");
+    assert_eq!(
+        file_stem("torque-map-theta3+05.00deg"),
+        "torque-map-theta3+05.00deg"
+    );
+    assert_eq!(file_stem("fig-../../x\u{1b}\u{202e}ü"), "fig-..-..-x---");
+    assert_eq!(file_stem(&"a".repeat(5_000_000)).len(), LONGEST_STEM);
+}
+
 /// Gaits as a publication has them.
 const NUMBERED: [GaitNumbers; 2] = [
     GaitNumbers {

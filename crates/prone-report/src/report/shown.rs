@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::folder::Folder;
 use super::{ReportError, Run, picture, svg_file};
-use crate::figures::{self, Figure};
+use crate::figures::{self, Figure, file_stem};
 
 /// One figure of a report.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -99,9 +99,9 @@ fn add(found: &mut Vec<Shown>, run: &mut Run) -> Result<(), ReportError> {
         runs: vec![folder.name.clone()],
     }));
     for entry in std::mem::take(&mut run.recorded) {
-        let stem = entry.file.rsplit('/').next().unwrap_or(&entry.file);
+        let stem = file_stem(entry.file.rsplit('/').next().unwrap_or(&entry.file));
         // What is drawn anew from tables that were cut would look whole in its recorded form.
-        if drawn.contains(stem) {
+        if drawn.contains(&stem) {
             continue;
         }
         let (png, svg) = (format!("{}.png", entry.file), format!("{}.svg", entry.file));
@@ -111,7 +111,7 @@ fn add(found: &mut Vec<Shown>, run: &mut Run) -> Result<(), ReportError> {
             reason,
         })?;
         found.push(Shown {
-            stem: stem.to_owned(),
+            stem,
             image: Image::Recorded {
                 svg: drawing,
                 small: entry.picture.then(Vec::new),
