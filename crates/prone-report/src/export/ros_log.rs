@@ -10,7 +10,7 @@
 //! | `/contacts/<body>/<with>` | `geometry_msgs/msg/WrenchStamped` | what presses on that body |
 //! | `/robot_description` | `std_msgs/msg/String` | the robot as URDF; once, latched |
 //!
-//! A body and a thing that are no parts of a topic's name are made such ([`tokens`]); a channel's
+//! A body and a thing that are no parts of a topic's name are made such (`tokens`); a channel's
 //! metadata has their own names beside the profile of its publisher, which rosbag2 asks for.
 //!
 //! The wrench is the sum over the points in which the body touches that thing at that instant, its
