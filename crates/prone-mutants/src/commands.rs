@@ -71,9 +71,14 @@ pub fn run(
     let mut wrong = ended.wrong();
     let out = bed.path().join("out");
     // What is readable of a record that was cut off is shown, which is said, and the code is 2.
-    let cut_off = ["what stands before", "are left", "missing from here"]
-        .iter()
-        .any(|word| ended.said.contains(word));
+    let cut_off = [
+        "what stands before",
+        "are left",
+        "are not there",
+        "missing from here",
+    ]
+    .iter()
+    .any(|word| ended.said.contains(word));
     let may_leave = ended.code == Some(0) || cut_off;
     if !may_leave && let Some(left) = fs::read_dir(&out)?.next() {
         let left = left?.file_name();
