@@ -18,7 +18,7 @@ pub use about::About;
 use about::short;
 use symmetry::{Asymmetry, AsymmetryError};
 
-/// Mass over the cube of the chain's length, kg/m³. That of people and of humanoids is 10 to 30.
+/// Mass over the cube of the chain's length, kg/m³. That of people and of humanoids is 7 to 30.
 const MASS_OVER_LENGTH_CUBED: (f64, f64) = (1.0, 150.0);
 /// Least mass of a leg or an arm, as a share of the robot's.
 const LEAST_LIMB: f64 = 0.005;
